@@ -87,8 +87,8 @@ PRESENTED = 0.39
 """Part of the page that the inspector takes while presenting; the picture has 55 % of the screen."""
 GIVES_WAY_TO = 28
 """Width down to which the inspector gives way to an open side pane, in heights of the text; then both get narrower."""
-SIDES_AT_MOST = 0.6
-"""Largest part of the page that both take together."""
+INSPECTOR_AT_MOST, SIDES_AT_MOST = 0.5, 0.6
+"""Largest part of the page that the inspector takes, and both together."""
 
 
 class StepColumns(PaneSplitter):
@@ -122,6 +122,7 @@ class StepColumns(PaneSplitter):
             0.0 if widget.isHidden() else width * text
             for widget, width in zip(self._sides, self._widths, strict=True)
         ]
+        wanted[1] = min(wanted[1], INSPECTOR_AT_MOST * self.width())
         if self._is_presenting and wanted[1]:
             wanted[1] = PRESENTED * self.width()
         room = SIDES_AT_MOST * self.width()

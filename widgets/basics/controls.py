@@ -305,6 +305,7 @@ class FlowLayout(QLayout):
             if item.isEmpty():
                 continue
             size = item.sizeHint()
+            size.setWidth(min(size.width(), max(rect.width(), 1)))
             if line and x + size.width() > rect.right() + 1:
                 self._set_line(line, rect, y, line_height, is_only_measured)
                 x, y, line_height, line = rect.x(), y + line_height + self.spacing(), 0, []

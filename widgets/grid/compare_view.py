@@ -6,9 +6,24 @@ from functools import partial
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
 from PySide6.QtGui import QGuiApplication, QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QBoxLayout, QGraphicsOpacityEffect, QLabel, QPushButton, QSizePolicy, QWidget
+from PySide6.QtWidgets import (
+    QBoxLayout,
+    QComboBox,
+    QGraphicsOpacityEffect,
+    QLabel,
+    QPushButton,
+    QSizePolicy,
+    QWidget,
+)
 
-from widgets.basics.controls import ChoiceBox, CutLabel, button_with_tip, column_layout, row_layout
+from widgets.basics.controls import (
+    ChoiceBox,
+    CutLabel,
+    FlowLayout,
+    button_with_tip,
+    column_layout,
+    row_layout,
+)
 from widgets.basics.settings_panel import Setting
 from widgets.basics.theme import theme_notifier
 from widgets.grid.buffer_strip import BufferChoice
@@ -21,21 +36,26 @@ from widgets.inspector.listing import ListingText, ListingView
 
 LINES, LINES_WITH_CODE = (4, 5), (3, 4)
 """Lines above a picture, the last one says how far its run is, and below it."""
-LEAST_ROOM = 6
-"""Letters that the box of the buffers has room for at least."""
+FAMILY_ROOM, METHOD_ROOM = 12, 20
+"""Letters that the boxes for what B does otherwise have room for."""
 FOLDED_LINES = (3, 3)
 """The same where the difference stands below A and B, with all notes beside it: there they are wider."""
+MOST_ABOVE = 2 / 3
+"""Largest part of the height that A and B have then: the difference is at least half as large."""
 FOLDED_GAIN = 1.15
 """How many times larger the pictures become at least where the difference is put below A and B."""
-TIGHT_LINES, PICTURE_LINES = (1, 0), 9
-"""The same where pictures would be lower than so many lines of text: in large type in a small window."""
+TITLE_LINES, PICTURE_LINES = 3, 9
+"""Lines above a picture at most, and none below, where it would be lower than so many lines of text."""
 NOTE_LINES = 4
 """Lines of a note at least where all stand beside the difference; more where there is room beside it."""
 OLD_OPACITY = 0.4
 """Of a picture that is no longer that of what stands there."""
 SWAP_TIP, USE_TIP = "Swap the settings of A and B", "Give the page the settings of B"
+CHOICES_SPACING = 8
 CODE_LINES = 10
 """Lines of text that the listings of A and B are high at least, where they are shown."""
+LEAST_LINES, LEAST_LINES_WITH_CODE = (5, 0), (4, 5)
+"""Lines that pictures and listings are high in the least room: what has none above that is left out."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,6 +120,8 @@ class CompareView(QWidget):
         self._settings: tuple[Setting, ...] = ()
         self._sides: tuple[Side, ...] = ()
         self._is_flipped = self._is_tight = False
+        self._wants_choices, self._room, self._least = True, 0, 0
+        """Whether choices are offered where there is room, the height that they leave, and what of it is needed."""
         self._buttons: dict[str, QPushButton] = {}
         for box, name, tip in (
             (self.buffer_box, "Buffer", "Which buffer is compared"),
@@ -118,16 +140,14 @@ class CompareView(QWidget):
         theme_notifier().theme_changed.connect(self._show_again)
 
     def _lay_out(self) -> None:
-        self._choices = QWidget(self)
-        choices = column_layout(self._choices, 8)
-        row = row_layout(spacing=8)
-        row.addWidget(QLabel("Compare", self))
-        row.addWidget(self.buffer_box, 1)
-        row.addWidget(QLabel("B:", self))
-        row.addWidget(self.family_box, 1)
-        row.addWidget(self.value_box, 2)
-        row.addStretch(1)
-        buttons = row_layout(spacing=8)
+        self._boxes, self._button_row = QWidget(self), QWidget(self)
+        boxes, buttons = FlowLayout(self._boxes, 8), FlowLayout(self._button_row, 8)
+        for box, room in ((self.family_box, FAMILY_ROOM), (self.value_box, METHOD_ROOM)):
+            # What is chosen must not move what stands beside it.
+            box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+            box.setMinimumContentsLength(room)
+        boxes.addWidget(self._named("Compare", self.buffer_box))
+        boxes.addWidget(self._named("B:", self.family_box, self.value_box))
         for text, tip, signal in (
             (
                 "First divergence",
@@ -146,11 +166,9 @@ class CompareView(QWidget):
         self.flip_button.pressed.connect(partial(self.show_flipped, True))
         self.flip_button.released.connect(partial(self.show_flipped, False))
         buttons.addWidget(self.flip_button)
-        buttons.addStretch(1)
-        layout = column_layout(self, 8, margins=(0, 4, 0, 0))
-        choices.addLayout(row)
-        choices.addLayout(buttons)
-        layout.addWidget(self._choices)
+        layout = column_layout(self, CHOICES_SPACING, margins=(0, 4, 0, 0))
+        layout.addWidget(self._boxes)
+        layout.addWidget(self._button_row)
         layout.addWidget(self.figure, 1)
         figure = self._figure_layout = column_layout(self.figure, 8, margins=(8, 8, 8, 8))
         figure.addWidget(self.linked, 1)
@@ -172,22 +190,50 @@ class CompareView(QWidget):
         self._code.hide()
         self.summary = self.notes[2]
 
+    def _named(self, name: str, *boxes: QWidget) -> QWidget:
+        """Return boxes in a row after their name, which stays with them."""
+        group = QWidget(self._boxes)
+        row = row_layout(group, spacing=8)
+        row.addWidget(QLabel(name, group))
+        for box in boxes:
+            row.addWidget(box, 1)
+        return group
+
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Put the difference below A and B where that makes the pictures larger."""
         super().resizeEvent(event)
+        before = self._is_tight
+        self._make_room()
         self._fold_if_larger()
-        if self._is_tight != self._has_little_room():
+        if self._is_tight != before:
             self._show_again()
 
-    def _has_little_room(self) -> bool:
-        """Return whether the pictures need the room of most that is said of them."""
-        lines = self.figure.height() / self.fontMetrics().lineSpacing()
-        return lines < sum(LINES) + PICTURE_LINES and not self.linked.is_folded and self._code.isHidden()
+    def _make_room(self) -> None:
+        """Leave out what the pictures need the room of: first most that is said of them, then buttons and choices."""
+        line = self.fontMetrics().lineSpacing()
+        self._room = self.height()
+        self._least = sum(LEAST_LINES_WITH_CODE if self._has_code() else LEAST_LINES) * line
+        for row, lines in ((self._boxes, 1), (self._button_row, TITLE_LINES)):
+            height = row.heightForWidth(self.width()) + CHOICES_SPACING
+            is_shown = self._wants_choices and self._room - height >= self._least + lines * line
+            row.setVisible(is_shown)
+            self._room -= height if is_shown else 0
+        wanted = sum(LINES_WITH_CODE) + CODE_LINES if self._has_code() else sum(LINES)
+        self._is_tight = self._room < (wanted + PICTURE_LINES) * line and not self.linked.is_folded
+
+    def _has_code(self) -> bool:
+        """Return whether listings are compared."""
+        return any(side.listing is not None for side in self._sides)
 
     def _fold_if_larger(self) -> None:
-        is_folded = self._gain() > FOLDED_GAIN
-        if is_folded == self.linked.is_folded:
-            return
+        gain, upper = self._gain()
+        is_folded = gain > FOLDED_GAIN
+        if is_folded != self.linked.is_folded:
+            self._fold(is_folded)
+        if is_folded:
+            self.linked.share_height(upper)
+
+    def _fold(self, is_folded: bool) -> None:
         # The notes are parted from their place before they get the other one.
         self._figure_layout.removeWidget(self._notes)
         self.linked.fold(self._notes if is_folded else None)
@@ -204,29 +250,34 @@ class CompareView(QWidget):
         self._show_again()
         self._notes.show()
 
-    def _gain(self) -> float:
-        """Return how many times larger the pictures are with the difference below A and B; 0: its notes lack room."""
+    def _gain(self) -> tuple[float, float]:
+        """Return how many times larger A and B are with the difference below them, and their part of the height then.
+
+        0 times: there is no room for the notes beside the difference.
+        """
         buffer = next((side.buffer for side in self._sides if side.buffer is not None), None)
-        if buffer is None or not self._code.isHidden():
-            return 0.0
+        if buffer is None or self._has_code():
+            return 0.0, 1.0
         line = self.fontMetrics().lineSpacing()
-        width, height = (
-            self.figure.width(),
-            self.height() - (self._choices.height() if self._choices.isVisibleTo(self) else 0),
-        )
+        width, height = self.figure.width(), self._room
         above, below = (lines * line for lines in LINES)
         folded_above, folded_below = (lines * line for lines in FOLDED_LINES)
-        if height / 2 < len(self.notes) * (folded_below + SPACING):
-            return 0.0
+        both = height - 2 * (folded_above + SPACING)
+        notes = len(self.notes) * (folded_below + SPACING) - folded_above
+        if both / 2 < notes:
+            return 0.0, 1.0
+        most = min(both - notes, MOST_ABOVE * both)
+        upper = max(both / 2, min(width / 2 * buffer.rows / buffer.columns, most))
         flat, folded = (
             min(wide / buffer.columns, high / buffer.rows)
-            for wide, high in ((width / 3, height - above - below), (width / 2, height / 2 - folded_above))
+            for wide, high in ((width / 3, height - above - below), (width / 2, upper))
         )
-        return folded / flat if flat > 0 else 0.0
+        return (folded / flat if flat > 0 else 0.0), upper / both
 
     def show_choices(self, is_shown: bool) -> None:
         """Offer buffers, methods and buttons, or leave all the room to the pictures."""
-        self._choices.setVisible(is_shown)
+        self._wants_choices = is_shown
+        self._make_room()
 
     def show_settings(self, settings: Sequence[Setting], changed: frozenset[str]) -> None:
         """Show the settings of B, and mark the families in which it differs."""
@@ -257,13 +308,15 @@ class CompareView(QWidget):
         self._sides = sides
         if self._is_flipped:
             sides = sides[1], sides[0], sides[2]
-        has_code = any(side.listing is not None for side in sides)
+        has_code = self._has_code()
         above, below = LINES_WITH_CODE if has_code else LINES
-        self._is_tight = not has_code and self._has_little_room()
+        self._make_room()
+        self.linked.show_last(not (has_code and self._is_tight))
         if self.linked.is_folded:
             above, below = FOLDED_LINES
         elif self._is_tight:
-            above, below = TIGHT_LINES
+            spare = (self._room - self._least) // self.fontMetrics().lineSpacing()
+            above, below = min(max(spare, 1), TITLE_LINES), 0
         self._notes.setVisible(below > 0)
         half = self.figure.height() // (2 * self.fontMetrics().lineSpacing())
         notes = max(NOTE_LINES, half // len(self.notes))
@@ -283,7 +336,8 @@ class CompareView(QWidget):
             if self.linked.is_folded:
                 note.setMinimumHeight(0)  # No higher than its text: the notes stand one below the other.
         self._code.setVisible(has_code)
-        self._code.setMinimumHeight(CODE_LINES * self.fontMetrics().lineSpacing())
+        lines = LEAST_LINES_WITH_CODE[1] if self._is_tight else CODE_LINES
+        self._code.setMinimumHeight(lines * self.fontMetrics().lineSpacing())
         for view, side in zip(self.listings, sides, strict=False):
             if side.listing is None or view.toPlainText() != side.listing.source.rstrip("\n"):
                 view.show_listing(side.listing)

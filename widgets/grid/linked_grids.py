@@ -16,6 +16,8 @@ from widgets.grid.view import GridView
 NOTHING_YET = "Nothing to show yet"
 SPACING = 8
 """Between grids, in logical pixels."""
+SHARES = 100
+"""Parts into which the height of two rows is divided."""
 LEAST_HEIGHT = 9
 """Of the pictures with their titles, in heights of the text."""
 
@@ -58,8 +60,7 @@ class LinkedGrids(QWidget):
             layout.addWidget(grid, 2 * row + 1, column)
         for column in range(len(self.grids)):
             layout.setColumnStretch(column, column < columns)
-        layout.setRowStretch(1, 1)
-        layout.setRowStretch(3, columns < len(self.grids))
+        self.share_height(1.0)
 
     @property
     def is_folded(self) -> bool:
@@ -74,6 +75,18 @@ class LinkedGrids(QWidget):
         self._place(len(self.grids) - (rest is not None))
         if rest is not None:
             self._layout.addWidget(rest, 2, 1, 2, 1)
+
+    def share_height(self, upper: float) -> None:
+        """Give the grids above a part of the height, and the one below the others the rest."""
+        self._layout.setRowStretch(1, round(SHARES * upper))
+        self._layout.setRowStretch(3, SHARES - round(SHARES * upper))
+
+    def show_last(self, is_shown: bool) -> None:
+        """Show the last of the grids, or leave its room to the others."""
+        for widget in (self.titles[-1], self.grids[-1]):
+            widget.setVisible(is_shown)
+        if not self.is_folded:
+            self._place(len(self.grids) - (not is_shown))
 
     def minimumSizeHint(self) -> QSize:
         """Return a size in which the pictures can be seen below their titles."""

@@ -24,6 +24,7 @@ from widgets.basics.theme import current_theme, theme_notifier
 from widgets.exercises.answer_forms import make_view
 from widgets.exercises.mark_grid import AnswerView, MarkGrid
 from widgets.exercises.records import LessonFeedback, LessonStepRecord, Standing
+from widgets.lessons.lesson_scroll import FloatingBar
 
 # A dot for each step of a lesson: which are done or seen, which one is shown; a click opens any of them.
 
@@ -156,6 +157,8 @@ class LessonView(QWidget):
         self._is_presenting = self._is_asking = self._has_solution = False
         self._record: LessonStepRecord | None = None
         self.answer: AnswerView | None = None
+        self.bar = FloatingBar(self)
+        """The buttons of a step."""
         self.title = text_label("", self, role="strong", wraps=True)
         self.place = text_label("", self, role="muted", name="Step of the lesson")
         self.close_button = flat_button(
@@ -203,6 +206,7 @@ class LessonView(QWidget):
         result.addWidget(self._icon, 0, Qt.AlignmentFlag.AlignTop)
         result.addWidget(self.feedback, 1)
         checks, ways = row_layout(spacing=8), FlowLayout(spacing=8)
+        buttons = column_layout(self.bar, 6)
         for button in (self.check_button, self.reveal_button):
             checks.addWidget(button, 0, Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
         # Beside the buttons: what is typed must not move them.
@@ -217,8 +221,9 @@ class LessonView(QWidget):
         self._answer_place = column_layout(spacing=4)
         column.addLayout(self._answer_place)
         # What came of the task stands below: no message moves the buttons.
-        column.addLayout(checks)
-        column.addLayout(ways)
+        buttons.addLayout(checks)
+        buttons.addLayout(ways)
+        column.addWidget(self.bar.place)
         column.addLayout(result)
         column.addLayout(self._links)
 

@@ -18,10 +18,10 @@ from lessons.course.state import State, States, edited_shader
 from lessons.mistakes.shelf import SHELF
 from lessons.scene_edits import scene_digest
 from widgets.basics.accessibility import first_stop, give_focus
-from widgets.basics.panes import LessonScroll
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.records import LessonFeedback, LessonStepRecord, Standing
 from widgets.grid.pixel_grid import PixelGrid
+from widgets.lessons.lesson_scroll import LessonScroll
 from widgets.lessons.lesson_view import LessonView
 
 if TYPE_CHECKING:
@@ -91,7 +91,7 @@ class LessonTask(QObject):
         self._blank.empty_text = NO_PICTURE
         self._blank.hide()
         self.view = LessonView(self.grid, page)
-        self.scroll = LessonScroll(self.view, page)
+        self.scroll = LessonScroll(self.view, self.view.bar, page)
         self.states = LessonStates(page)
         self.answers = LessonAnswers(self.view, self.grid, self)
         self._watch = LessonWatch(page.session, self)

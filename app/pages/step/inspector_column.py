@@ -1,5 +1,7 @@
 """The right column: a lesson's pane and the inspector with the step in words; and what is said of it aloud."""
 
+from typing import TYPE_CHECKING
+
 from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt, QTimer, Signal, Slot
 from PySide6.QtGui import QAccessible, QResizeEvent
 from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QSizePolicy, QTabWidget, QWidget
@@ -9,7 +11,7 @@ from core.explain.records import Formula
 from core.stages.declared import stage_of
 from widgets.basics.accessibility import announce
 from widgets.basics.controls import column_layout
-from widgets.basics.panes import LessonScroll, PaneSplitter
+from widgets.basics.panes import PaneSplitter
 from widgets.basics.theme import current_theme, text_font, theme_notifier
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.inspector.formula_view import FormulaView
@@ -19,6 +21,9 @@ from widgets.inspector.prediction import PredictionView
 from widgets.inspector.variables import VariablesView
 from widgets.timeline.stage_cards import StageCardView
 from widgets.timeline.transport import Timeline
+
+if TYPE_CHECKING:
+    from widgets.lessons.lesson_scroll import LessonScroll  # Made with the first lesson.
 
 # The inspector's column: the step in words, formula, listing and variables; or the history of a pixel.
 
@@ -242,6 +247,8 @@ class InspectorColumn(QTabWidget):
 
 INSPECTOR_LINES = 9
 """Height that the inspector keeps under a lesson, in lines of text, where sentence and formula need no less."""
+LESSON_PART = 2 / 3
+"""Part of the height that the lesson has at least, if it needs it: in large type the inspector scrolls."""
 
 
 class SideColumn(QWidget):
@@ -259,7 +266,7 @@ class SideColumn(QWidget):
         inspector.installEventFilter(self)
         inspector.formula_grown.connect(self._divide)
 
-    def show_lesson(self, lesson: LessonScroll | None) -> None:
+    def show_lesson(self, lesson: "LessonScroll | None") -> None:
         """Show the pane of a lesson above the inspector, or no longer."""
         if self._lesson is not None and self._lesson is not lesson:
             self._layout.removeWidget(self._lesson)
@@ -326,9 +333,9 @@ class SideColumn(QWidget):
         is_inspected = is_wanted and (has_room or not gives_way)
         self._inspector.show_formula_alone(is_alone and has_room)
         self._below.setVisible(is_inspected)
-        most = (
-            self.height() if not is_inspected or has_room else max(self.height() - least, self.height() // 2)
-        )
+        most = self.height()
+        if is_inspected and not has_room:
+            most = max(most - least, round(LESSON_PART * most))
         self._lesson.take_room(wanted, most)
 
     def resizeEvent(self, event: QResizeEvent) -> None:

@@ -126,9 +126,8 @@ def test_keys_and_dots_go_through_a_lesson(window: MainWindow, qtbot: QtBot, tmp
     ]
     walk.next()
     assert settled(window, qtbot).number == 4
-    assert [button.text() for button in walk.view.findChildren(type(walk.view.next_button))][-1].startswith(
-        "Exercise: "
-    )
+    buttons = walk.view.findChildren(type(walk.view.next_button))
+    assert any(button.text().startswith("Exercise: ") for button in buttons)
 
 
 def test_wandering_off_costs_nothing(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:

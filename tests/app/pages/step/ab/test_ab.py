@@ -191,7 +191,7 @@ def test_each_side_has_its_own_pixel_centres(window: MainWindow) -> None:
     window.page.show_view("compare")
     places = [grid.placement() for grid in window.page.compare_view.grids]
     centres = [place.to_window(place.cells_rect(2, 1).center()) for place in places]
-    assert centres == [(2.5, 1.5), (2, 1), (2.5, 1.5)]
+    np.testing.assert_allclose(centres, [(2.5, 1.5), (2, 1), (2.5, 1.5)], atol=1e-9)
 
 
 def test_the_pictures_are_exported_without_the_choices(window: MainWindow, tmp_path: Path) -> None:
@@ -288,7 +288,7 @@ def test_a_slow_b_is_drawn_in_the_background(window: MainWindow, qtbot: QtBot) -
     window.session.open(open_document(make_scene("sphere"), "Sphere"))
     window.page.show_view("compare")
     window.page.compare_view.setting_chosen.emit("fill", "brute-force")
-    assert window.page.compare_view.summary.text() == "Drawing B …"
+    assert "Drawing B …" in window.page.compare_view.summary.text()
     qtbot.waitUntil(lambda: "pixels differ" in window.page.compare_view.summary.text(), timeout=20000)
 
 
