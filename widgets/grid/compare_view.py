@@ -46,8 +46,6 @@ FOLDED_GAIN = 1.15
 """How many times larger the pictures become at least where the difference is put below A and B."""
 TITLE_LINES, PICTURE_LINES = 3, 9
 """Lines above a picture at most, and none below, where it would be lower than so many lines of text."""
-NOTE_LINES = 4
-"""Lines of a note at least where all stand beside the difference; more where there is room beside it."""
 OLD_OPACITY = 0.4
 """Of a picture that is no longer that of what stands there."""
 SWAP_TIP, USE_TIP = "Swap the settings of A and B", "Give the page the settings of B"
@@ -259,7 +257,7 @@ class CompareView(QWidget):
         if buffer is None or self._has_code():
             return 0.0, 1.0
         line = self.fontMetrics().lineSpacing()
-        width, height = self.figure.width(), self._room
+        width, height = self.width(), self._room  # The figure has its new size a moment later.
         above, below = (lines * line for lines in LINES)
         folded_above, folded_below = (lines * line for lines in FOLDED_LINES)
         both = height - 2 * (folded_above + SPACING)
@@ -318,8 +316,9 @@ class CompareView(QWidget):
             spare = (self._room - self._least) // self.fontMetrics().lineSpacing()
             above, below = min(max(spare, 1), TITLE_LINES), 0
         self._notes.setVisible(below > 0)
-        half = self.figure.height() // (2 * self.fontMetrics().lineSpacing())
-        notes = max(NOTE_LINES, half // len(self.notes))
+        _, upper = self._gain()
+        folded = self._room / self.fontMetrics().lineSpacing() - 2 * FOLDED_LINES[0]
+        notes = int((folded * (1 - upper) + FOLDED_LINES[0] - 1) / len(self.notes))
         for side, grid, title, note in zip(sides, self.grids, self.titles, self.notes, strict=True):
             grid.empty_text = side.reason
             grid.set_pixel_center(side.pixel_center)

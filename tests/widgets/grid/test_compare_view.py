@@ -55,7 +55,8 @@ def test_long_sentences_are_whole_beside_the_difference_and_leave_the_pictures_t
 
 def test_long_sentences_take_no_room_of_the_pictures(view: CompareView, qtbot: QtBot) -> None:
     view.resize(700, 600)
-    qtbot.waitUntil(lambda: view.linked.is_folded and min(height for _, height in sizes(view)) > 100)
+    qtbot.waitUntil(lambda: view.linked.is_folded)
+    QApplication.processEvents()
     before = sizes(view)
     buffer = GridBuffer("depth", np.zeros((48, 64)))
     view.show_sides(
