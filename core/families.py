@@ -16,9 +16,17 @@ class SettingField:
     title: str
     """What a person reads in a panel."""
     taken_by: str = ""
-    """The family whose chosen method decides, by its ``takes``, whether this setting matters; empty: it always does."""
+    """The families, apart by spaces, whose chosen methods decide by their ``takes`` whether this setting matters.
+
+    Empty: it always does.
+    """
     otherwise: str = ""
-    """Why it does not matter, where the chosen method does not take it."""
+    """Why it does not matter, where no chosen method takes it."""
+
+    @property
+    def takers(self) -> tuple[str, ...]:
+        """The families of ``taken_by``."""
+        return tuple(self.taken_by.split())
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -92,8 +100,14 @@ NOT_FOR: Mapping[str, Mapping[str, str]] = {
     },
     "no polygons": dict.fromkeys(("polygon_clipping", "polygon_fill"), "This scene has no polygons."),
     "no texture": dict.fromkeys(("texture_filter", "wrap"), "This scene has no texture."),
-    "own shaders": {"shading": "The scene's own shaders do it. The pane Shaders (L) takes them off."},
-    "no lights": {"shading": "Typed triangles have no lights: they are unlit."},
+    "own shaders": {
+        "shading": "The scene's own shaders do it. The pane Shaders (L) takes them off.",
+        "object_culling": "The scene's vertex shader moves the corners: the boxes of its meshes do not hold them.",
+    },
+    "no lights": {
+        "shading": "Typed triangles have no lights: they are unlit.",
+        "object_culling": "This scene has no meshes: only those have boxes in world space.",
+    },
     "outlined": {"correction_interval": "Lines are interpolated with perspective at every pixel."},
 }
 """By a fact, the settings that do not matter then, and why. No reason: they do; no name: all others do not."""

@@ -114,6 +114,11 @@ class Mesh:
                 raise ValueError(f"faces must be ({len(triangles)},), got {faces.shape}")
             object.__setattr__(self, "faces", faces)
 
+    @property
+    def is_affine(self) -> bool:
+        """Whether M leaves w at 1, as all do that are no projection themselves."""
+        return bool(np.array_equal(self.transform[3], (0, 0, 0, 1)))
+
 
 def triangulate(polygons: list[list[int]]) -> tuple[Integers, Integers]:
     """Fan polygons into triangles: (T, 3) vertex indices and the (T,) polygon each came from.

@@ -25,6 +25,22 @@ class Settings:
         is_look=True,
         classical=("none", "back"),
     )
+    object_culling: str = choice(
+        "none",
+        "Object culling",
+        "cull",
+        "core.culling.object_culling",
+    )
+    hierarchy: str = choice(
+        "bvh",
+        "Hierarchy",
+        "cull",
+        "core.trees.bounding_volumes",
+        "core.trees.octree",
+        asks=("listing", "operations"),
+        taken_by="object_culling visibility",
+        otherwise="Only culling of objects and rays with a tree have boxes.",
+    )
     clipping: str = choice(
         "homogeneous",
         "Clipping",
@@ -195,6 +211,26 @@ class Settings:
         taken_by="antialiasing",
         otherwise="Only several samples per pixel are filtered.",
     )
+    leaf_size: int = number_field(
+        8,
+        "Leaf size",
+        1024,
+        (1, 2, 4, 8, 16, 32, 64),
+        "{0} in a leaf",
+        taken_by="hierarchy",
+        otherwise="Only trees have leaves.",
+    )
+    """Triangles that a node may have without being cut (hierarchies), 1 to 1,024."""
+    octree_depth: int = number_field(
+        5,
+        "Octree depth",
+        8,
+        tuple(range(1, 9)),
+        "{0} levels",
+        taken_by="hierarchy",
+        otherwise="Only an octree needs a limit of its depth.",
+    )
+    """How often a cell of an octree is halved at most, 1 to 8."""
     block_size: int = number_field(
         8,
         "Block size",
@@ -304,12 +340,14 @@ def no_effect(settings: Settings, name: str, scene: AnyScene | None = None) -> s
     for reasons in (NOT_FOR[fact] for fact in facts(scene)):
         if name in reasons or "" in reasons:
             return reasons.get(name, reasons.get("", ""))
-    by = FIELDS[name].taken_by
-    if by and name not in table.get(by, getattr(settings, by)).takes:
+    takers = FIELDS[name].takers
+    taking = [by for by in takers if name in table.get(by, getattr(settings, by)).takes]
+    if takers and not taking:
         return FIELDS[name].otherwise
     if name in NOT_FOR["outlined"] and table.get("polygon_mode", settings.polygon_mode).function():
         return NOT_FOR["outlined"][name]
-    return no_effect(settings, by, scene) if by else ""
+    reasons = [no_effect(settings, by, scene) for by in taking]
+    return reasons[0] if reasons and all(reasons) else ""
 
 
 DEFAULTS = Settings()

@@ -25,6 +25,7 @@ from core.records.primitives import IndexedPrimitives
 
 if TYPE_CHECKING:
     from core.culling.normal_view import NormalView
+    from core.culling.object_culling import ObjectCulling
 
 
 # Outcodes: on which side of which plane a vertex lies, one byte a vertex.
@@ -88,8 +89,11 @@ def has_bits(code: Outcodes, bits: int) -> Flags:
 # Culling: triangles that need not be drawn, each with its reason.
 
 
-KEPT, BACK_FACING, FRONT_FACING, DEGENERATE, BEHIND_EYE, OUTSIDE_PLANE = range(6)
-REASONS = ("kept", "back-facing", "front-facing", "degenerate", "behind-eye", "outside-plane")
+KEPT, BACK_FACING, FRONT_FACING, DEGENERATE, BEHIND_EYE, OUTSIDE_PLANE, WITH_ITS_BOX = range(7)
+REASONS = (
+    *("kept", "back-facing", "front-facing", "degenerate", "behind-eye", "outside-plane"),
+    "with-its-box",
+)
 
 PLANES = ("near", "far", "left", "right", "bottom", "top")
 """Planes of the view volume, in clipping order."""
@@ -118,6 +122,8 @@ class CullVerdicts:
     """What a method by N . V has seen; ``None``: ``facing`` decides."""
     plane_count: int = len(PLANES)
     """How many of ``PLANES`` are tested: 2 where lines beside the window may reach into it."""
+    objects: "ObjectCulling | None" = None
+    """What culling of objects has dropped before; ``None``: no object was asked."""
 
     @property
     def side(self) -> Floats:
@@ -129,22 +135,30 @@ class CullVerdicts:
         """(T,) bool."""
         is_outside = has_bits(self.shared_outcode, PLANE_BITS | BEHIND_BIT)
         culled: Flags = self.drops | (self.facing == 0) | is_outside
-        return ~culled
+        return ~culled if self.objects is None else ~(culled | (self.dropped_by >= 0))
+
+    @cached_property
+    def dropped_by(self) -> Integers:
+        """(T,) int64, the plane that the box of its object lies outside of, -1: none, or no object was asked."""
+        if self.objects is None:
+            return np.full(len(self.assembled), -1)
+        return self.objects.dropped_by.take(self.assembled.triangle)
 
     @cached_property
     def verdict(self) -> Integers:
-        """(T,) int64, an index of ``REASONS``; the first that applies of behind, outside, degenerate, facing."""
+        """(T,) int64, an index of ``REASONS``; the first that applies of box, behind, outside, degenerate, facing."""
         verdict = np.where(self.drops, np.where(self.side > 0, FRONT_FACING, BACK_FACING), KEPT)
         verdict[self.facing == 0] = DEGENERATE
         verdict[has_bits(self.shared_outcode, PLANE_BITS)] = OUTSIDE_PLANE
         verdict[has_bits(self.shared_outcode, BEHIND_BIT)] = BEHIND_EYE
+        verdict[self.dropped_by >= 0] = WITH_ITS_BOX
         return verdict
 
     @cached_property
     def plane(self) -> Integers:
-        """(T,) int64, the plane that all corners are outside of, else -1."""
+        """(T,) int64, the plane that all corners, or its object's box, are outside of, else -1."""
         first = FIRST_PLANE[self.shared_outcode & PLANE_BITS]
-        return np.where(self.verdict == OUTSIDE_PLANE, first, -1)
+        return np.where(self.verdict == OUTSIDE_PLANE, first, self.dropped_by)
 
     @cached_property
     def distances(self) -> Floats:
@@ -165,6 +179,7 @@ def cull(
     drops_facing: Callable[[Floats], Flags],
     sight: "NormalView | None" = None,
     plane_count: int = len(PLANES),
+    objects: "ObjectCulling | None" = None,
 ) -> CullVerdicts:
     """Give every triangle its verdict.
 
@@ -178,6 +193,8 @@ def cull(
         What a method by N . V decides by, of the same triangles.
     plane_count : int
         How many of ``PLANES`` are tested.
+    objects : ObjectCulling, optional
+        What is dropped with its object.
     """
     drops = None if sight is None else sight.drops
     if drops is None:
@@ -185,7 +202,7 @@ def cull(
     shared = shared_bits(outcode, assembled.corner)
     if plane_count < len(PLANES):
         shared &= np.uint8(~PLANE_BITS & 0xFF | (1 << plane_count) - 1)
-    return CullVerdicts(assembled, facing, drops, shared, sight, plane_count)
+    return CullVerdicts(assembled, facing, drops, shared, sight, plane_count, objects)
 
 
 @method("cull", "none", "Both faces", source="OpenGL 4.6, 14.6.1", exact_for="every scene")

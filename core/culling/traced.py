@@ -5,6 +5,8 @@ import numpy as np
 from core.coverage.snapping import place_corners
 from core.culling.culling import DEGENERATE, KEPT, PLANES, REASONS, cull_verdict
 from core.culling.normal_view import NormalView, cofactors, face_normals
+from core.culling.object_culling import box_against_planes
+from core.culling.traced_objects import in_front_of
 from core.methods import table
 from core.records.arrays import Integers
 from core.records.listing import RETURN, Operation, listing
@@ -12,14 +14,15 @@ from core.records.steps import Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels
 
-KINDS: tuple[str, ...] = ("behind", "plane", "degenerate", "facing", "kept")
+KINDS: tuple[str, ...] = ("behind", "plane", "degenerate", "facing", "kept", "with-its-box")
 """What rows may be about; the method decides by what the facing is tested."""
 
 
 def trace_cull(source: TraceSource) -> StageTrace:
     """Return one row for every test: behind the eye, six planes, degenerate, facing; and one for a kept triangle.
 
-    Culling by N . V has rows of its own in place of the facing.
+    Culling by N . V has rows of its own in place of the facing. Where boxes are asked, the rows of building their tree
+    and of asking them stand before all triangles, and a triangle that is dropped with its box has a single row.
 
     Segments and points have neither area nor facing.
     """
@@ -32,7 +35,8 @@ def trace_cull(source: TraceSource) -> StageTrace:
     outside[:, culled.plane_count :] = False
 
     # Tests 0: behind, 1 to 6: planes, 7: degenerate, 8: facing, 9: kept; each runs if none before applied.
-    applies = np.zeros((count, 10), bool)
+    # Alone: 10, with its box.
+    applies = np.zeros((count, 11), bool)
     applies[:, 0] = behind
     applies[:, 1:7] = outside
     applies[:, 7] = culled.facing == 0
@@ -42,9 +46,11 @@ def trace_cull(source: TraceSource) -> StageTrace:
     corner_count = vertices.corner_count
     if corner_count < 3:
         runs[:, 7:9] = False
+    applies[:, 10] = is_boxed = culled.dropped_by >= 0
+    runs[is_boxed], runs[:, 10] = False, is_boxed
     which, test = np.nonzero(runs)
-    kind = np.array([0, *[1] * 6, 2, 3, 4])[test]
-    plane = np.clip(test - 1, 0, 5)
+    kind = np.array([0, *[1] * 6, 2, 3, 4, 5])[test]
+    plane = np.where(test == 10, culled.dropped_by[which], np.clip(test - 1, 0, 5))
     verdict = np.array(REASONS)[culled.verdict]
     columns = {
         "w": clip[which][..., 3],
@@ -62,6 +68,9 @@ def trace_cull(source: TraceSource) -> StageTrace:
         columns["flat_ring"] = np.where(flat.any(axis=1), flat.argmax(axis=1), -1)[which]
     kinds, listings = KINDS, dict.fromkeys(KINDS, listing(cull_verdict))
     method = table.get("cull", source.settings.cull)
+    if culled.objects is not None:
+        columns["node"] = culled.objects.dropped_in[assembled.triangle[which]]
+        listings["with-its-box"] = listing(box_against_planes)
     sight = culled.sight
     if sight is not None:
         columns |= _normal_view(sight, which)
@@ -78,11 +87,12 @@ def trace_cull(source: TraceSource) -> StageTrace:
             "degenerate": (Operation("test", "degenerate", (), ("facing", "applies")),),
             "facing": (Operation("test", "facing", (), ("facing", "applies", "verdict")),),
             "kept": (Operation("verdict", "kept", {"verdict": RETURN}),),
+            "with-its-box": (Operation("drop", "dropped", (), ("plane", "node", "applies", "verdict")),),
         },
         triangle_ends=ends_of(which),
         group_ends=ends_of(which, kind),
     )
-    return StageTrace(
+    found = StageTrace(
         stage="cull",
         method=f"cull={source.settings.cull}",
         steps=steps,
@@ -93,6 +103,10 @@ def trace_cull(source: TraceSource) -> StageTrace:
         marks={"rejected": applies[which, test], "covered": test == 9},
         extra={"culled": culled},
     )
+    grown = source.geometry.object_tree
+    if grown is None:
+        return found
+    return in_front_of(found, len(KINDS) * which + kind, source, grown)
 
 
 def _normal_view(sight: NormalView, which: Integers) -> dict[str, np.ndarray]:

@@ -36,6 +36,7 @@ from core.transform.vertex_stage import VertexStage
 if TYPE_CHECKING:
     from core.lines.wireframe import Outlines
     from core.records.steps import RowOrder
+    from core.stages.object_tree import ObjectTree
     from core.stages.primitives import OutlineClip, PolygonClip
     from core.visibility.ray_casting import RayPlanes
 
@@ -75,6 +76,8 @@ class Geometry:
     """How the stage depth lists its rows; ``None``: triangle by triangle."""
     asks_all: bool = False
     """Whether the ray of a pixel asks all primitives."""
+    object_tree: "ObjectTree | None" = None
+    """The boxes that objects are culled by, or rays find triangles with; ``None``: no method asks for them."""
     shift: tuple[float, float] = (0.0, 0.0)
     """By how many pixels x and y are moved against the scene: another place of the pixels is then at their centres."""
 

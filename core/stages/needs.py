@@ -50,6 +50,11 @@ def _meeting_sides(scene: ClipScene) -> str:
     return next(filter(None, found), "")
 
 
+def _moved_by_projection(scene: AnyScene) -> str:
+    is_moved = isinstance(scene, Scene) and not all(mesh.is_affine for mesh in scene.meshes)
+    return "the matrix of a mesh of this scene is a projection itself" if is_moved else ""
+
+
 @dataclass(frozen=True, eq=False)
 class Need:
     """Something that a method needs of what it is given."""
@@ -67,6 +72,7 @@ NEEDS = {
     "mipmaps": Need("mipmaps of the texture"),
     "blending": Need("blending"),
     "perspective": Need("a perspective camera", _parallel_rays),
+    "world-boxes": Need("meshes in world space, where w is 1", _moved_by_projection),
     "rectangle": Need("a rectangle as clip window", _polygon_as_window),
     "convex-window": Need("a convex clip window", _concave_window),
     "simple-rings": Need("rings that do not cross or touch", _meeting_rings),

@@ -36,6 +36,7 @@ from core.stages.declared import GEOMETRY_STAGES
 from core.stages.fragment_color import vertex_stage
 from core.stages.geometry import Geometry, all_projected, clipping_distances, line_reach
 from core.stages.needs import check_edits, check_needs
+from core.stages.object_tree import culled_objects, object_tree
 from core.transform.vertex_stage import CornerPositionsOnDemand, VertexStage, transform_vertices
 
 __all__ = [
@@ -114,6 +115,9 @@ def _process(
             from core.culling.normal_view import eye_triangles  # Only culling by N . V waits for its file.
 
             sight = look(eye_triangles(vertices, assembled.triangle))
+        # Not the planes at the sides of the window where a line beside it reaches in.
+        plane_count = len(PLANES) if line_reach(settings) == 0 else PLANES.index("left")
+        grown = object_tree(scene, vertices, settings)
         culled = (
             cull(
                 assembled,
@@ -121,8 +125,8 @@ def _process(
                 doubled_area,
                 resolve(settings).drops_facing,
                 sight,
-                # Not those at the sides of the window where a line beside it reaches in.
-                len(PLANES) if line_reach(settings) == 0 else PLANES.index("left"),
+                plane_count,
+                culled_objects(scene, vertices, settings, grown, plane_count),
             )
             if vertices.rings is None
             else cull_polygons(vertices, assembled, settings)
@@ -171,6 +175,7 @@ def _process(
         asks_all=drawing.asks_all,
         settings=settings,
         count=counts["edges"],
+        object_tree=grown,
     )
 
 

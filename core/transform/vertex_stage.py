@@ -295,7 +295,7 @@ def _ends_alone(scene: ClipScene) -> Flags:
 
 def view_range(scene: Scene) -> tuple[float, float] | None:
     """Return ``VertexStage.view_range``; a mesh whose M is a projection itself has another w."""
-    is_affine = all(np.array_equal(mesh.transform[3], (0, 0, 0, 1)) for mesh in scene.meshes)
+    is_affine = all(mesh.is_affine for mesh in scene.meshes)
     if scene.camera.projection != "perspective" or not is_affine:
         return None
     return scene.camera.near, scene.camera.far
