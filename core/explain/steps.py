@@ -151,7 +151,7 @@ shows("resolve", PIXEL)
 
 
 SUBJECTS = (
-    *("transform.told", "culling.told", "clipping.told"),
+    *("transform.told", "culling.told", "trees.told", "culling.told_objects", "clipping.told"),
     *(
         "coverage.told_edges",
         "coverage.told_binning",

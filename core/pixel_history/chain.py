@@ -36,6 +36,8 @@ def cull_link(candidates: PixelCandidates, triangle: int, tests: dict[str, Any] 
         "plane": PLANES[plane] if plane >= 0 else "none",
         "plane_distances": culled.distances[triangle, :, plane] if plane >= 0 else None,
     }
+    if culled.objects is not None:
+        values["node"] = int(culled.objects.dropped_in[culled.assembled.triangle[triangle]])
     return Link("cull", REASONS[int(culled.verdict[triangle])], values | (tests or {}))
 
 

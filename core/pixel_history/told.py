@@ -220,6 +220,9 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     ("cull", "degenerate"): "culled: it has no area",
     ("cull", "behind-eye"): "culled: {three_vertices} behind the eye (w ≤ 0)",
     ("cull", "outside-plane"): lambda v: f"culled: {v['drawn'].all_vertices} {PLANES[v['plane']]}{_would(v)}",
+    ("cull", "with-its-box"): lambda v: (
+        f"culled with node {v['node']}, whose box lies {PLANES[v['plane']]}{_would(v)}"
+    ),
     ("clip", "no-clipping"): "not clipped",
     ("clip", "inside"): "not clipped: inside all planes",
     ("clip", "clipped"): _clipped,
@@ -257,6 +260,7 @@ COUNTED = {
     "degenerate": "culled, no area",
     "behind-eye": "culled, behind the eye",
     "outside-plane": "culled, outside the view",
+    "with-its-box": "culled with a box outside the view",
     "clipped-away": "clipped away",
     "no-fragment": "no fragment here",
     "outside-box": "the pixel is outside their bounding box",

@@ -56,11 +56,19 @@ def is_dropped(trace: Trace, stage: str, position: int) -> Flags:
         return np.zeros(len(geometry.assembled), bool)
     dropped: Flags = geometry.culled.verdict != KEPT
     if stage == "cull":
-        steps = trace.stage(stage).steps
-        # A triangle has its verdict when its last row is done; the first end is 0 where there are no rows.
-        done = int(np.searchsorted(steps.triangle_ends, steps.rows_done(position), "right"))
-        dropped = dropped & (np.arange(len(dropped)) < done)
+        dropped = dropped & (np.arange(len(dropped)) < triangles_done(trace.stage(stage), position))
     return dropped
+
+
+def triangles_done(found: StageTrace, position: int) -> int:
+    """Return how many triangles have their verdict: the last row of each is done, and the rows before all of them.
+
+    The first end is 0 where there are no rows.
+    """
+    steps = found.steps
+    done = int(np.searchsorted(steps.triangle_ends, steps.rows_done(position), "right"))
+    has_front = steps.row_count > 0 and found.triangle[0] < 0
+    return max(done - 1, 0) if has_front else done
 
 
 # Trace of the vertex stage: every vertex from space to space, one component after the other.

@@ -66,6 +66,8 @@ def building_rows(grown: ObjectTree, settings: Settings) -> InsertedRows:
         "node_lower": tree.lower,
         "node_upper": tree.upper,
         "object_count": tree.count,
+        "leaf_size": np.full(count, settings.leaf_size),
+        "octree_depth": np.full(count, settings.octree_depth),
     }
     if method.name == "octree":
         columns |= _cells(tree)

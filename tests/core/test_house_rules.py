@@ -25,7 +25,7 @@ TOO_LONG = {
 """Files that hold more than one concept still: each wants to be taken apart, and no other joins them."""
 TOPICS = (
     *("clipping", "coverage", "culling", "depth", "framebuffer", "interpolation"),
-    *("lines", "shading", "spans", "textures", "transform", "visibility"),
+    *("lines", "shading", "spans", "textures", "transform", "trees", "visibility"),
 )
 RUNS = ("stages", "trace", "study", "edits", "fast_path", "pixel_history", "pipeline")
 KNOWS_NOT = {

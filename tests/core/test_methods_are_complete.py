@@ -31,6 +31,8 @@ SHOWN_BY = {
     "texture_filter": TEXTURED,
     "wrap": TEXTURED,
     "shading": SCENES["lit"],
+    "object_culling": SCENES["lit"],
+    "hierarchy": SCENES["lit"],
     "polygon_clipping": POLYGON,
     "polygon_fill": POLYGON,
 }
@@ -90,6 +92,8 @@ def unexplained(method: Method) -> list[str]:
     choices = {method.family: method.name}
     if method.family in OUTLINED:
         choices["polygon_mode"] = "wireframe"
+    if method.family == "hierarchy":
+        choices |= {"object_culling": "frustum", "leaf_size": 1}
     scene = SHOWN_BY.get(method.family, PLAIN)
     traced = trace(scene, Settings(**choices), region=(0, 0, 9, 7))
     keys = {

@@ -8,8 +8,9 @@ from core.coverage.edge_formats import inverse_coefficients, rounded_corner
 from core.coverage.edges import edge_coefficients, edge_value
 from core.coverage.snapping import anchored_coefficients, edge_left_out, snap_one
 from core.culling.culling import cull_verdict
+from core.culling.object_culling import box_against_planes
 from core.methods import table
-from core.trace import Trace
+from core.trace import StageTrace, Trace
 from core.transform.matrices import transform_component
 from core.transform.traced import divide_and_map
 from tests.core.trace.executed_rows import check_marks, equal, lines_that_run, rows_of_kind
@@ -34,10 +35,15 @@ def check_cull(traced: Trace) -> None:
     found = traced.stage("cull")
     assembled = traced.source.geometry.assembled
     drops = {"none": lambda f: False, "back": lambda f: f < 0, "front": lambda f: f > 0}
+    _check_boxes(found)
     ends = found.steps.triangle_ends
     starts = [0, *ends[:-1].tolist()]
+    if found.triangle[0] < 0:
+        starts, ends = starts[1:], ends[1:]
     for triangle, start, row in zip(assembled.triangle.tolist(), starts, (ends - 1).tolist(), strict=True):
         facing = found.columns["facing"][row]
+        if found.kind_of(row) == "with-its-box":
+            continue
         # Culling by N . V goes by its own side, where there is one.
         seen = -found.columns["product"][row] if "product" in found.columns else facing
         dropped = drops.get(traced.source.settings.cull, drops["back"])(seen)
@@ -47,6 +53,30 @@ def check_cull(traced: Trace) -> None:
         assert verdict == found.columns["verdict"][row]
         for tested in range(start, row + 1):
             check_marks(found, tested, ran)
+
+
+def _check_boxes(found: StageTrace) -> None:
+    """Run the listing of a box on all planes that each visit has asked."""
+    asked = np.flatnonzero(np.isin(found.steps.kind, kinds_named(found, "box-outside", "box-plane")))
+    if not len(asked):
+        return
+    c, objects = found.columns, found.extra["culled"].objects
+    equations = objects.planes.coefficients.tolist()
+    for visit, node in enumerate(objects.visited.tolist()):
+        rows = asked[objects.visit == visit]
+        planes = objects.plane[objects.visit == visit].tolist()
+        slack = objects.sides.slack[node].tolist()
+        box = objects.tree.lower[node].tolist(), objects.tree.upper[node].tolist()
+        with lines_that_run() as ran:
+            verdict, crossed = box_against_planes(*box, equations, slack, planes)
+        assert verdict == c["box_verdict"][rows[-1]]
+        assert len(crossed) == (0 if verdict == "outside" else np.count_nonzero(c["is_crossed"][rows]))
+        for row in rows:
+            check_marks(found, row, ran)
+
+
+def kinds_named(found: StageTrace, *names: str) -> list[int]:
+    return [k for k, kind in enumerate(found.steps.kinds) if kind in names]
 
 
 def check_clip(traced: Trace) -> None:
