@@ -58,6 +58,11 @@ class ResolvedSettings:
         return look
 
     @cached_property
+    def asks_boxes(self) -> bool:
+        """Whether a chosen method asks the boxes of a hierarchy."""
+        return any("hierarchy" in self.method(family).takes for family in FAMILIES["hierarchy"].takers)
+
+    @cached_property
     def drawing_order(self) -> "Callable[..., DrawingOrder]":
         """Visibility: from the corners of all triangles to their order."""
         return self.method("visibility").function

@@ -346,8 +346,8 @@ def no_effect(settings: Settings, name: str, scene: AnyScene | None = None) -> s
         return FIELDS[name].otherwise
     if name in NOT_FOR["outlined"] and table.get("polygon_mode", settings.polygon_mode).function():
         return NOT_FOR["outlined"][name]
-    reasons = [no_effect(settings, by, scene) for by in taking]
-    return reasons[0] if reasons and all(reasons) else ""
+    found = [no_effect(settings, by, scene) for by in taking]
+    return found[0] if found and all(found) else ""
 
 
 DEFAULTS = Settings()

@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core.records.arrays import Floats, checked
-from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight, Scene
+from core.scene import AnyScene, Camera, ClipScene, Mesh, Scene
 from core.transform.assembly import assemble
 from lessons.run_place import FIRST_STEP, RunPlace
-from lessons.shapes import FACE_COLORS, cube, floor, knot, linear_color, plates, sphere, teapot, torus
+from lessons.shapes import FACE_COLORS, cube, knot, linear_color, sphere, teapot, torus
 from lessons.window_scenes import (
     connecting_edges,
     pentagram,
@@ -18,12 +18,15 @@ from lessons.window_scenes import (
     two_triangles,
     weiler_atherton,
 )
-
-TEACHING_SIZE = (64, 48)
-"""Raster of the small cases in pixels: every pixel can be pointed at."""
-
-PICTURE_SIZE = (512, 512)
-"""Raster of the meshes."""
+from lessons.world_scenes import (
+    TEACHING_SIZE,
+    boxes_around,
+    lit_floor,
+    of_mesh,
+    sun,
+    textured_floor,
+    z_fighting,
+)
 
 RED_GREEN_BLUE = np.array([[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0]])
 
@@ -195,57 +198,6 @@ def intersecting() -> ClipScene:
     return ClipScene(np.stack([rising, falling]), colors, size)
 
 
-def z_fighting() -> Scene:
-    """Two plates, one a hair's breadth behind the other: less than a step of 16-bit depth, many of 24 bits."""
-    camera = Camera(eye=np.array([1.0, 1.1, 3.1]), target=np.zeros(3), near=0.05, far=50.0)
-    return Scene(plates(), camera, (sun(),), TEACHING_SIZE)
-
-
-def textured_floor() -> Scene:
-    """A floor to the horizon, where affine interpolation and a texture without mipmaps go wrong."""
-    camera = Camera(eye=np.array([0.0, 1.6, 4.0]), target=np.array([0.0, 0.4, -2.0]), near=0.2, far=60.0)
-    return Scene((floor(),), camera, (sun(),), PICTURE_SIZE)
-
-
-def lit_floor() -> Scene:
-    """A floor of two large triangles: the light mirrored in its middle is far from every corner."""
-    lying = Mesh(
-        positions=np.array([[-4.0, 0.0, -8.0], [4.0, 0.0, -8.0], [4.0, 0.0, 0.0], [-4.0, 0.0, 0.0]]),
-        triangles=np.array([[0, 2, 1], [0, 3, 2]]),
-        normals=np.tile([0.0, 1.0, 0.0], (4, 1)),
-        faces=np.array([0, 0]),
-        material=Material(ambient=0.1, diffuse=0.3, specular=0.6, shininess=40.0),
-        name="lit floor",
-    )
-    camera = Camera(eye=np.array([0.0, 2.0, 2.0]), target=np.array([0.0, 0.5, -4.0]), near=0.5, far=30.0)
-    return Scene((lying,), camera, (PointLight(np.array([0.0, 2.0, -10.0])),), TEACHING_SIZE)
-
-
-def sun() -> DirectionalLight:
-    """Return light from above left."""
-    return DirectionalLight(np.array([0.4, -0.8, -0.7]))
-
-
-def of_mesh(mesh: Callable[[], Mesh], distance: float, color: str = "") -> Callable[[], Scene]:
-    """Return a maker of the scene of one mesh in one colour, seen from the right and from above."""
-
-    def make() -> Scene:
-        direction = np.array([0.45, 0.5, 1.0])
-        camera = Camera(
-            eye=direction / np.linalg.norm(direction) * distance,
-            target=np.zeros(3),
-            near=distance / 10,
-            far=3 * distance,
-        )
-        shape = mesh()
-        if color:
-            shape = replace(shape, colors=np.tile(linear_color(color), (len(shape.positions), 1)))
-        weak = DirectionalLight(np.array([-0.9, -0.1, -0.3]), np.full(3, 0.25))
-        return Scene((shape,), camera, (sun(), weak), PICTURE_SIZE)
-
-    return make
-
-
 CATALOGUE = (
     BuiltInScene(
         "single-triangle",
@@ -355,6 +307,14 @@ CATALOGUE = (
         "One triangle that begins in front of the camera and ends behind it, where w is negative.",
         near_plane,
         RunPlace("transform", 'kind == "camera-to-clip" and after_w < 0'),
+    ),
+    BuiltInScene(
+        "boxes-around",
+        "Boxes around the viewer",
+        "Most of these boxes lie outside the view: each is asked by six planes, and dropped with all its triangles.",
+        boxes_around,
+        RunPlace("cull", 'kind == "box-outside"'),
+        {"object_culling": "frustum", "hierarchy": "none"},
     ),
     BuiltInScene(
         "intersecting",

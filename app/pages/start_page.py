@@ -21,7 +21,8 @@ from core.scene import AnyScene, Scene
 from core.settings import settings_from_texts
 from lessons.lectures.scenes import ALL_SCENES, LECTURE_SCENES, LECTURES
 from lessons.scene_edits import scene_digest
-from lessons.scenes import CATALOGUE, TEACHING_SIZE, BuiltInScene
+from lessons.scenes import CATALOGUE, BuiltInScene
+from lessons.world_scenes import TEACHING_SIZE
 from widgets.basics.controls import button_with_tip, column_layout, row_layout, text_label
 from widgets.basics.image import display_image
 from widgets.basics.theme import current_theme, theme_notifier

@@ -5,12 +5,13 @@ NDC to a box that is as wide as the picture and has the near plane in front. A c
 takes the same way back.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from math import inf
 
 import numpy as np
 
 from app.session.moment import Moment
+from app.views.box_marks import SpaceMark, box_marks
 from core.clipping.planes import clip_segments
 from core.clipping.sutherland_hodgman import DEPTH_PLANES, clip_primitives
 from core.culling.culling import KEPT, REASONS, plane_distances
@@ -21,7 +22,7 @@ from core.scene import AnyScene, Camera, ClipScene, Mesh, Scene
 from core.stages.declared import GEOMETRY_STAGES, STAGES
 from core.trace import scene_triangle_count
 from core.transform.matrices import projection, transform, world_to_camera
-from core.transform.traced import SPACES, is_dropped, spaces_reached
+from core.transform.traced import SPACES, is_dropped, spaces_reached, triangles_done
 from core.transform.vertex_stage import VertexStage, vertex_normals
 from lessons.scene_edits import set_clip_corner
 from widgets.space.orbit import Orbit
@@ -261,18 +262,6 @@ ARROW = 0.16
 """Length of an arrow, as a part of the view's radius."""
 
 
-@dataclass(frozen=True, eq=False)
-class SpaceMark:
-    """A line through points of the space that is shown, with a mark and a name at its last point."""
-
-    points: Floats = field(repr=False)
-    """(N, 3) float64."""
-    ink: str
-    label: str = ""
-    shape: str = "none"
-    """As of ``widgets.space.scene_view.SceneMark``."""
-
-
 def step_marks(moment: Moment, space: ViewSpace) -> list[SpaceMark]:
     """Return the marks of the step just done, the present item last and in the accent."""
     stage, position = moment.cursor.stage, moment.cursor.position
@@ -338,9 +327,10 @@ def _facing_marks(moment: Moment, space: ViewSpace, position: int) -> list[Space
     source, trace = moment.trace.source, moment.stage_trace
     culled, triangles = source.geometry.culled, source.geometry.assembled.triangle
     row, done = trace.steps.row_at(position)
-    tested = int(np.searchsorted(trace.steps.triangle_ends, trace.steps.rows_done(position), "right"))
+    if row >= 0 and trace.triangle[row] < 0:
+        return box_marks(trace, row)
     current = -1 if row < 0 else int(np.flatnonzero(triangles == trace.triangle[row])[0])
-    kept = np.flatnonzero(culled.verdict[: min(tested, len(triangles))] == KEPT)
+    kept = np.flatnonzero(culled.verdict[: triangles_done(trace, position)] == KEPT)
     has_arrows = len(kept) <= MOST_MARKS and source.scene.corner_count == 3
     kept = kept[kept != current]
     marks = _arrows(space, triangles[kept], culled.side[kept], "text") if has_arrows else []
@@ -348,7 +338,7 @@ def _facing_marks(moment: Moment, space: ViewSpace, position: int) -> list[Space
         return marks
     triangle, kind = int(triangles[current]), trace.kind_of(row)
     name = f"{nouns(source.scene.corner_count).one} {triangle}"
-    marks += _outlines(space, triangle)
+    marks += _outlines(space, triangle) + (box_marks(trace, row)[-1:] if kind == "with-its-box" else [])
     facing = float(culled.side[current])
     what = f"area {facing / 2:+.4g}" if culled.sight is None else f"N · V {-facing:+.4g}"
     operations = [operation.name for operation in trace.steps.operations.get(kind, ())]
@@ -359,7 +349,7 @@ def _facing_marks(moment: Moment, space: ViewSpace, position: int) -> list[Space
         marks.append(SpaceMark(space.corners(triangle).mean(axis=0)[None], "accent", label, "cross"))
     elif not is_known:
         marks.append(SpaceMark(space.corners(triangle).mean(axis=0)[None], "accent", name))
-    elif kind not in ("behind", "plane") and source.scene.corner_count == 3:
+    elif kind not in ("behind", "plane", "with-its-box") and source.scene.corner_count == 3:
         at = slice(current, current + 1)
         marks += _arrows(space, triangles[at], culled.side[at], "accent", f"{name}: {side}")
     else:

@@ -197,13 +197,11 @@ def cull_objects(
             node += 1
         else:
             node = ends[node]
-    visit, plane, verdict_of = (np.array(numbers, np.int64) for numbers in (visits, asked, verdicts))
-    dropped_by, dropped_in = _dropped(
-        tree, np.array(visited, np.int64), verdict_of, visit, plane, object_count
+    nodes, of_nodes, visit, planes_asked = (
+        np.array(numbers, np.int64) for numbers in (visited, verdicts, visits, asked)
     )
-    return ObjectCulling(
-        tree, planes, sides, np.array(visited, np.int64), verdict_of, visit, plane, dropped_by, dropped_in
-    )
+    dropped = _dropped(tree, nodes, of_nodes, visit, planes_asked, object_count)
+    return ObjectCulling(tree, planes, sides, nodes, of_nodes, visit, planes_asked, *dropped)
 
 
 def _dropped(

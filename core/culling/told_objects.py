@@ -58,7 +58,7 @@ def outside(step: StepValues) -> Said:
     value, slack = step.named("far", "d"), step.number("slack")
     text = (
         f"{_box(step)} is dropped, with all that is in it: even the corner farthest along the normal of the "
-        f"{step.text('plane')} plane is outside. Its entries of {_held(step)} ask no other plane."
+        f"{step.text('plane')} plane is outside. No other plane is asked."
     )
     return text, formula_of(concludes("dropped", "dropped", value.compared("<", named("-s", -slack))))
 
@@ -98,7 +98,7 @@ def crosses(step: StepValues) -> Said:
     )
 
 
-@explains("cull.box-verdict.verdict", decides=True)
+@explains("cull.box-verdict.verdict")
 def verdict(step: StepValues) -> Said:
     """What no plane drops: taken whole, or asked further."""
     if step.text("box_verdict") == "inside":

@@ -68,6 +68,7 @@ def walking_rows(objects: ObjectCulling) -> InsertedRows:
     kinds = tuple(WALK_OPERATIONS)
     kind = np.where(is_last, 2, np.where(side == OUTSIDE, 0, 1))
     columns = {
+        "visit": visit,
         "node": node,
         "plane": np.array(PLANES)[plane],
         "plane_equation": equation,

@@ -20,7 +20,11 @@ Account = Callable[[Mapping[str, int], Nouns], list[str]]
 def _cull_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
     verdicts = [f"{counts['covered']:,} kept"] if counts["covered"] else []
     verdicts += [f"{counts['rejected']:,} dropped"] if counts["rejected"] else []
-    return [counted(counts["rows"], "test"), *(verdicts or ["nothing decided yet"])]
+    boxes, tests = counts["boxes"], counts["rows"] - counts["boxes"]
+    asked = [counted(boxes, "step about a box", "steps about boxes")] if boxes else []
+    if boxes and not tests:
+        return asked
+    return [*asked, counted(tests, "test"), *(verdicts or ["nothing decided yet"])]
 
 
 def _clip_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
@@ -208,7 +212,7 @@ def summary_sentence(
     unit : str, optional
         What the step is where rows are not listed triangle by triangle, see `core.records.steps.RowOrder.unit`.
     """
-    known = {name: counts.get(name, 0) for name in ("rows", "tested", "samples", *MARKS)}
+    known = {name: counts.get(name, 0) for name in ("rows", "tested", "samples", "boxes", *MARKS)}
     family, _, name = method.partition("=")
     drawn = nouns(corner_count)
     account_of, group = ACCOUNTS[stage], drawn.text(stage_of(stage).group)

@@ -36,7 +36,6 @@ from core.stages.declared import GEOMETRY_STAGES
 from core.stages.fragment_color import vertex_stage
 from core.stages.geometry import Geometry, all_projected, clipping_distances, line_reach
 from core.stages.needs import check_edits, check_needs
-from core.stages.object_tree import culled_objects, object_tree
 from core.transform.vertex_stage import CornerPositionsOnDemand, VertexStage, transform_vertices
 
 __all__ = [
@@ -117,7 +116,12 @@ def _process(
             sight = look(eye_triangles(vertices, assembled.triangle))
         # Not the planes at the sides of the window where a line beside it reaches in.
         plane_count = len(PLANES) if line_reach(settings) == 0 else PLANES.index("left")
-        grown = object_tree(scene, vertices, settings)
+        grown, objects = None, None
+        if resolve(settings).asks_boxes:
+            from core.stages.object_tree import culled_objects, object_tree  # Only boxes wait for it.
+
+            grown = object_tree(scene, vertices, settings)
+            objects = culled_objects(scene, vertices, settings, grown, plane_count)
         culled = (
             cull(
                 assembled,
@@ -126,7 +130,7 @@ def _process(
                 resolve(settings).drops_facing,
                 sight,
                 plane_count,
-                culled_objects(scene, vertices, settings, grown, plane_count),
+                objects,
             )
             if vertices.rings is None
             else cull_polygons(vertices, assembled, settings)

@@ -15,7 +15,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from core.methods import method
-from core.records.arrays import Floats, Integers
+from core.records.arrays import Flags, Floats, Integers
 from core.records.box_tree import BoxTree, Objects, join_nodes
 from core.records.listing import Operation
 from core.trees.bounding_volumes import Node
@@ -44,7 +44,7 @@ def octants_of(low: Floats, high: Floats) -> tuple[Floats, Floats, Floats]:
 def touching(objects: Objects, items: Integers, lower: Floats, upper: Floats) -> list[Integers]:
     """Return, for every octant (8, 3), which of ``items`` (n,) touch it by their boxes: faces count twice."""
     low, high = objects.lower[items, None], objects.upper[items, None]
-    touches = ((low <= upper) & (high >= lower)).all(axis=2)
+    touches: Flags = np.all((low <= upper) & (high >= lower), axis=2)
     return [items[touches[:, octant]] for octant in range(8)]
 
 

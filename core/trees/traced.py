@@ -38,7 +38,8 @@ def cuts_of(objects: Objects, tree: BoxTree, hierarchy: str) -> Cuts:
     """Cut the nodes of a bounding volume hierarchy once more, from the top, to see how."""
     split = area_split if hierarchy == "bvh-area" else median_split
     count = len(tree)
-    found = Cuts(np.full((count, 3), np.nan), *np.full((2, count), -1), np.full(count, np.nan), [""] * count)
+    spread, cost = np.full((count, 3), np.nan), np.full(count, np.nan)
+    found = Cuts(spread, np.full(count, -1), np.full(count, -1), cost, [""] * count)
     items = {0: np.arange(len(objects))}
     for node in range(count):
         own = items.pop(node)

@@ -97,6 +97,9 @@ CLAIMS = {
     ),
     "pentagram": lambda s: (16, 12) not in s.pixels() and (16, 12) in s.pixels(polygon_fill="non-zero"),
     "near-plane": lambda s: set(np.sign(s.column("transform", "after_w"))) == {-1, 1},
+    "boxes-around": lambda s: (
+        not unlike(s, object_culling="none") and np.sum(s.column("cull", "box_verdict") == "outside") >= 6
+    ),
     "intersecting": lambda s: unlike(s, visibility="painters") > 100,
     "depth-table": lambda s: is_clear_of(s, np.inf),
     "z-fighting": lambda s: unlike(s, depth="z-24") > 300 and unlike(s, depth="z-16") == 0,

@@ -156,6 +156,10 @@ def traces() -> dict[str, dict[str, Trace]]:
     for (choice, settings), name in zip(cases, cycle(scenes)):
         scene, triangle, window = scenes[name]
         windows[f"{name} {choice}"] = trace(scene, settings, triangle, window, before="cleared")
+    boxes = make_scene("boxes-around")
+    for name in table.names("hierarchy"):
+        asked = Settings(object_culling="frustum", hierarchy=name, leaf_size=16, octree_depth=2)
+        windows[f"boxes {name}"] = trace(boxes, asked, 0, (30, 20, *WINDOW), before="cleared")
     # Polygons are clipped in scenes of their own.
     comb = make_scene("connecting-edges")
     for name in table.names("polygon_clipping")[1:]:

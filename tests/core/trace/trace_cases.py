@@ -90,6 +90,7 @@ LEFT_OUT = (
     "polygon-window",
     "z-fighting",
     "lit-floor",
+    "boxes-around",
     "teapot",
     "sphere",
     "torus",

@@ -99,6 +99,6 @@ def test_wrong_boxes_and_too_many_references_are_named() -> None:
         checked_objects(np.array([[0, np.nan, 0]]), np.zeros((1, 3)))
     with pytest.raises(ValueError, match=r"must not lie above upper, .* for box 1"):
         checked_objects(np.array([[0.0] * 3, [1, 0, 0]]), np.zeros((2, 3)))
-    low = np.zeros((1000, 3))
+    low = np.zeros((20_000, 3))
     with pytest.raises(ValueError, match=f"may list {MOST_REFERENCES:,} objects, .*: lower octree_depth"):
         grown("octree", checked_objects(low, low + 1), 1, 8)

@@ -1,0 +1,96 @@
+"""Scenes of meshes in world space, seen by a camera."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from core.scene import Camera, DirectionalLight, Material, Mesh, PointLight, Scene
+from lessons.shapes import FACE_COLORS, cube, floor, linear_color, plates
+
+TEACHING_SIZE = (64, 48)
+"""Raster of the small cases in pixels: every pixel can be pointed at."""
+
+PICTURE_SIZE = (512, 512)
+"""Raster of the meshes."""
+
+BOXES = (
+    ((-2.0, 0.5, -7.0), (1.0, 1.0, 1.0)),
+    ((1.5, 0.75, -9.0), (1.0, 1.5, 1.0)),
+    ((3.6, 0.5, -8.5), (1.5, 1.0, 1.5)),
+    ((0.0, 1.0, -18.0), (2.0, 2.0, 2.0)),
+    ((-6.0, 0.5, -4.0), (1.0, 1.0, 1.0)),
+    ((6.0, 0.5, -3.0), (1.0, 1.0, 1.0)),
+    ((-5.0, 0.5, 4.0), (1.0, 1.0, 1.0)),
+    ((0.0, 0.5, 6.0), (1.0, 1.0, 1.0)),
+    ((5.0, 0.5, 5.0), (1.0, 1.0, 1.0)),
+    ((-9.0, 0.5, 0.0), (1.0, 1.0, 1.0)),
+    ((9.0, 0.5, 1.0), (1.0, 1.0, 1.0)),
+    ((0.0, 1.75, -24.0), (40.0, 3.5, 1.0)),
+)
+"""Middle and sides of every box; the last one is a wall that crosses the view from side to side."""
+
+
+def boxes_around() -> Scene:
+    """Return twelve boxes on a floor around a viewer, each a mesh: half of them are outside the view."""
+    meshes = []
+    for number, (middle, sides) in enumerate(BOXES):
+        matrix = np.diag([*sides, 1.0])
+        matrix[:3, 3] = middle
+        shape, color = cube(1.0), linear_color(FACE_COLORS[number % len(FACE_COLORS)])
+        colors = np.tile(color, (len(shape.positions), 1))
+        meshes.append(replace(shape, transform=matrix, colors=colors, name=f"box {number}"))
+    camera = Camera(eye=np.array([0.0, 1.6, 0.0]), target=np.array([0.0, 1.6, -1.0]), near=0.5, far=28.0)
+    weak = DirectionalLight(np.array([-0.5, -0.3, -0.9]), np.full(3, 0.4))
+    return Scene(tuple(meshes), camera, (sun(), weak), TEACHING_SIZE)
+
+
+def z_fighting() -> Scene:
+    """Two plates, one a hair's breadth behind the other: less than a step of 16-bit depth, many of 24 bits."""
+    camera = Camera(eye=np.array([1.0, 1.1, 3.1]), target=np.zeros(3), near=0.05, far=50.0)
+    return Scene(plates(), camera, (sun(),), TEACHING_SIZE)
+
+
+def textured_floor() -> Scene:
+    """A floor to the horizon, where affine interpolation and a texture without mipmaps go wrong."""
+    camera = Camera(eye=np.array([0.0, 1.6, 4.0]), target=np.array([0.0, 0.4, -2.0]), near=0.2, far=60.0)
+    return Scene((floor(),), camera, (sun(),), PICTURE_SIZE)
+
+
+def lit_floor() -> Scene:
+    """A floor of two large triangles: the light mirrored in its middle is far from every corner."""
+    lying = Mesh(
+        positions=np.array([[-4.0, 0.0, -8.0], [4.0, 0.0, -8.0], [4.0, 0.0, 0.0], [-4.0, 0.0, 0.0]]),
+        triangles=np.array([[0, 2, 1], [0, 3, 2]]),
+        normals=np.tile([0.0, 1.0, 0.0], (4, 1)),
+        faces=np.array([0, 0]),
+        material=Material(ambient=0.1, diffuse=0.3, specular=0.6, shininess=40.0),
+        name="lit floor",
+    )
+    camera = Camera(eye=np.array([0.0, 2.0, 2.0]), target=np.array([0.0, 0.5, -4.0]), near=0.5, far=30.0)
+    return Scene((lying,), camera, (PointLight(np.array([0.0, 2.0, -10.0])),), TEACHING_SIZE)
+
+
+def sun() -> DirectionalLight:
+    """Return light from above left."""
+    return DirectionalLight(np.array([0.4, -0.8, -0.7]))
+
+
+def of_mesh(mesh: Callable[[], Mesh], distance: float, color: str = "") -> Callable[[], Scene]:
+    """Return a maker of the scene of one mesh in one colour, seen from the right and from above."""
+
+    def make() -> Scene:
+        direction = np.array([0.45, 0.5, 1.0])
+        camera = Camera(
+            eye=direction / np.linalg.norm(direction) * distance,
+            target=np.zeros(3),
+            near=distance / 10,
+            far=3 * distance,
+        )
+        shape = mesh()
+        if color:
+            shape = replace(shape, colors=np.tile(linear_color(color), (len(shape.positions), 1)))
+        weak = DirectionalLight(np.array([-0.9, -0.1, -0.3]), np.full(3, 0.25))
+        return Scene((shape,), camera, (sun(), weak), PICTURE_SIZE)
+
+    return make
