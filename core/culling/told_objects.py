@@ -58,7 +58,7 @@ def outside(step: StepValues) -> Said:
     value, slack = step.named("far", "d"), step.number("slack")
     text = (
         f"{_box(step)} is dropped, with all that is in it: even the corner farthest along the normal of the "
-        f"{step.text('plane')} plane is outside. No other plane is asked."
+        f"{step.text('plane')} plane is outside, and no other plane is asked."
     )
     return text, formula_of(concludes("dropped", "dropped", value.compared("<", named("-s", -slack))))
 
@@ -104,8 +104,9 @@ def verdict(step: StepValues) -> Said:
     if step.text("box_verdict") == "inside":
         return f"{_box(step)} is inside all planes: it is taken whole, with {_held(step)}, and no box in it is asked."
     if step.flag("is_node_leaf"):
-        own = f"Its {_held(step)} are tested by themselves."
-        return f"{_box(step)} is kept: it is outside no plane, and inside not all. {own}"
+        return (
+            f"{_box(step)} is kept, as it is outside no plane: its {_held(step)} go on to tests of their own."
+        )
     return f"{_box(step)} is outside no plane, and inside not all: the boxes in it are asked next."
 
 

@@ -221,13 +221,13 @@ class StageTrace:
     def summary(self, first: int, end: int) -> dict[str, int]:
         """Count the rows from ``first`` to ``end`` (excluded), the pixels ``tested`` in them, and their marks.
 
-        ``samples`` is 1 where the rows are about samples of pixels, else 0; ``boxes`` are rows about boxes of objects.
+        ``samples`` is 1 where the rows are about samples of pixels, else 0. Rows about ``boxes`` are counted if any are.
         """
         kinds = [k for k, name in enumerate(self.steps.kinds) if _tests_pixel(self.steps.operations[name])]
         tested = int(np.count_nonzero(np.isin(self.steps.kind[first:end], kinds))) if kinds else 0
         counts = {"rows": end - first, "tested": tested, "samples": int("sample" in self.columns)}
-        if "node" in self.columns:
-            counts["boxes"] = int(np.count_nonzero(self.triangle[first:end] < 0))
+        boxes = int(np.count_nonzero(self.triangle[first:end] < 0)) if "node" in self.columns else 0
+        counts |= {"boxes": boxes} if boxes else {}
         for name, flags in self.marks.items():
             counts[name] = int(np.count_nonzero(flags[first:end]))
         return counts

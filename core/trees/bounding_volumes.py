@@ -31,7 +31,7 @@ class Split:
 
     axis: int
     items: Integers
-    """(n,) int64, the objects sorted by their centres along the axis."""
+    """(P,) int64, the objects sorted by their centres along the axis."""
     cut: int
     """How many of them go into the first part."""
     spread: Floats
@@ -44,18 +44,18 @@ Splitter = Callable[[Objects, Integers], Split]
 
 
 def centers(objects: Objects, items: Integers) -> Floats:
-    """Return the centres (n, 3) of the boxes of ``items`` (n,)."""
+    """Return the centres (P, 3) of the boxes of ``items`` (P,)."""
     return objects.lower[items] / 2 + objects.upper[items] / 2
 
 
 def spread_of(center: Floats) -> Floats:
-    """Return the extents (3,) of centres (n, 3)."""
+    """Return the extents (3,) of centres (P, 3)."""
     with np.errstate(over="ignore"):
         return np.asarray(center.max(axis=0) - center.min(axis=0))
 
 
 def median_split(objects: Objects, items: Integers) -> Split:
-    """Cut in the middle of the objects, along the axis on which their centres spread most."""
+    """Cut ``items`` (P,) in the middle of their number, along the axis on which their centres spread most."""
     center = centers(objects, items)
     spread = spread_of(center)
     axis = int(spread.argmax())
@@ -64,7 +64,7 @@ def median_split(objects: Objects, items: Integers) -> Split:
 
 
 def area_split(objects: Objects, items: Integers) -> Split:
-    """Cut along the axis and at the place where area times number of both parts together is least."""
+    """Cut ``items`` (P,) along the axis and at the place where area times number of both parts together is least."""
     center = centers(objects, items)
     sorted_by = [items[np.argsort(center[:, axis], kind="stable")] for axis in range(3)]
     costs = np.stack([split_costs(objects.lower[order], objects.upper[order]) for order in sorted_by])
@@ -73,7 +73,7 @@ def area_split(objects: Objects, items: Integers) -> Split:
 
 
 def split_costs(lower: Floats, upper: Floats) -> Floats:
-    """Return (n - 1,) the costs of cutting boxes (n, 3) in their order after the first, the second, ..."""
+    """Return the costs (P - 1,) of cutting boxes (P, 3) in their order behind the first, the second, ..."""
     count = np.arange(1, len(lower))
     below = half_area(np.minimum.accumulate(lower), np.maximum.accumulate(upper))[:-1]
     above = half_area(np.minimum.accumulate(lower[::-1]), np.maximum.accumulate(upper[::-1]))[-2::-1]
@@ -82,14 +82,14 @@ def split_costs(lower: Floats, upper: Floats) -> Floats:
 
 
 def half_area(lower: Floats, upper: Floats) -> Floats:
-    """Return (...) half the surface of boxes (..., 3)."""
+    """Return half the surface (P,) of boxes (P, 3)."""
     with np.errstate(over="ignore", invalid="ignore"):
         x, y, z = np.moveaxis(upper - lower, -1, 0)
         return np.asarray(x * y + y * z + z * x)
 
 
 def build(objects: Objects, leaf_size: int, split: Splitter) -> BoxTree:
-    """Return the tree of objects, cut by ``split`` while more than ``leaf_size`` are together; no object, no node."""
+    """Return the tree of objects (T,), cut by ``split`` while more than ``leaf_size`` are together; no object, no node."""
     lower, upper, depth, own = list[Floats](), list[Floats](), list[int](), list[Integers]()
     none = np.empty(0, np.int64)
     pending = [(np.arange(len(objects)), 0)] if len(objects) else []

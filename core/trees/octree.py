@@ -42,7 +42,7 @@ def octants_of(low: Floats, high: Floats) -> tuple[Floats, Floats, Floats]:
 
 
 def touching(objects: Objects, items: Integers, lower: Floats, upper: Floats) -> list[Integers]:
-    """Return, for every octant (8, 3), which of ``items`` (n,) touch it by their boxes: faces count twice."""
+    """Return, for every octant (8, 3), which of ``items`` (P,) touch it by their boxes: faces count twice."""
     low, high = objects.lower[items, None], objects.upper[items, None]
     touches: Flags = np.all((low <= upper) & (high >= lower), axis=2)
     return [items[touches[:, octant]] for octant in range(8)]

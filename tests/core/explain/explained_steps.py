@@ -159,7 +159,7 @@ def traces() -> dict[str, dict[str, Trace]]:
     boxes = make_scene("boxes-around")
     for name in table.names("hierarchy"):
         asked = Settings(object_culling="frustum", hierarchy=name, leaf_size=16, octree_depth=2)
-        windows[f"boxes {name}"] = trace(boxes, asked, 0, (30, 20, *WINDOW), before="cleared")
+        windows[f"boxes {name}"] = trace(boxes, asked, 50, (30, 20, *WINDOW), before="cleared")
     # Polygons are clipped in scenes of their own.
     comb = make_scene("connecting-edges")
     for name in table.names("polygon_clipping")[1:]:
