@@ -89,7 +89,7 @@ def half_area(lower: Floats, upper: Floats) -> Floats:
 
 
 def build(objects: Objects, leaf_size: int, split: Splitter) -> BoxTree:
-    """Return the tree of objects (T,), cut by ``split`` while more than ``leaf_size`` are together; no object, no node."""
+    """Return the tree of objects (T,), cut by ``split`` while more than ``leaf_size`` are together."""
     lower, upper, depth, own = list[Floats](), list[Floats](), list[int](), list[Integers]()
     none = np.empty(0, np.int64)
     pending = [(np.arange(len(objects)), 0)] if len(objects) else []
