@@ -221,7 +221,7 @@ class StageTrace:
     def summary(self, first: int, end: int) -> dict[str, int]:
         """Count the rows from ``first`` to ``end`` (excluded), the pixels ``tested`` in them, and their marks.
 
-        ``samples`` is 1 where the rows are about samples of pixels, else 0. Rows about ``boxes`` count if there are any.
+        ``samples`` is 1 where the rows are about samples of pixels, else 0. Rows about ``boxes`` count if there are.
         """
         kinds = [k for k, name in enumerate(self.steps.kinds) if _tests_pixel(self.steps.operations[name])]
         tested = int(np.count_nonzero(np.isin(self.steps.kind[first:end], kinds))) if kinds else 0
