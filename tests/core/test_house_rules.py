@@ -20,7 +20,6 @@ TOO_LONG = {
     "app/pages/step/ab/presenter.py",
     "app/pages/step/listing_presenter.py",
     "app/pages/step/page.py",
-    "app/session/session.py",
 }
 """Files that hold more than one concept still: each wants to be taken apart, and no other joins them."""
 TOPICS = (
