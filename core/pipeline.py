@@ -134,6 +134,8 @@ def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers |
     sampling, settings = resolved.sampling, resolved.settings
     if sampling.is_area:
         return draw_areas(scene, settings, raster, chosen)
+    if sampling.is_filtered:
+        return draw_filtered(scene, settings, raster, chosen)
     if sampling.side:
         return draw_supersampled(scene, settings, raster, chosen, sampling.side)
     if len(sampling.position) > 1:
@@ -238,6 +240,19 @@ def blend(
             color, weigh_alpha(source, fragments), resolve(geometry.settings).blend_method.function
         )
         counts["depth"].outgoing = counts["blend"].incoming = counts["blend"].outgoing = len(fragments)
+
+
+# A filter over the finished picture.
+
+
+def draw_filtered(
+    scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None
+) -> Frame:
+    """Draw the ``chosen`` (T,) triangles, or all, at the pixels' centres, and smooth the edges in the picture."""
+    from core.antialiasing.fxaa import around_edges, smoothed_frame
+
+    wide = around_edges(raster)
+    return smoothed_frame(draw_centers(scene, settings, wide, chosen), wide, raster)
 
 
 # Several samples a pixel.

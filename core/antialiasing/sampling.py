@@ -45,11 +45,13 @@ class Sampling:
     """Samples on a side of a pixel, each shaded, as pixels of a finer picture; 0: they are not drawn so."""
     is_area: bool = False
     """Whether pixels are cut into the pieces that edges make of them."""
+    is_filtered: bool = False
+    """Whether edges are smoothed when the picture is finished."""
 
     @property
     def is_plain(self) -> bool:
         """Whether a pixel has one sample, and its colour is that of the sample."""
-        return len(self.position) == 1 and not self.side and not self.is_area
+        return len(self.position) == 1 and not (self.side or self.is_area or self.is_filtered)
 
     @property
     def count(self) -> int:
@@ -153,3 +155,16 @@ def exact_area(samples_across: int) -> Sampling:
 def multisample(samples_across: int) -> Sampling:
     """Take four samples a pixel, shaded together at its centre."""
     return Sampling(ROTATED_GRID)
+
+
+@method(
+    "antialiasing",
+    "fxaa",
+    "FXAA (edges found in the picture)",
+    source="Lottes 2009, FXAA; LMU, the antialiasing of many video games",
+    exact_for="pictures of one colour, which it leaves alone; close on long edges that are nearly level or upright",
+    breaks_where="detail of one pixel fades; what no pixel centre has hit stays lost; text and patterns blur",
+)
+def fast_approximate(samples_across: int) -> Sampling:
+    """Take one sample, and smooth the edges of the finished picture (`core.antialiasing.fxaa`)."""
+    return Sampling(CENTER, is_filtered=True)

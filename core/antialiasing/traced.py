@@ -1,13 +1,16 @@
 """Trace of resolving: from the samples of a pixel to one colour, and from linear colour to display bytes."""
 
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.antialiasing.exact_area import DrawnLayer, piece_painter, piece_sum
+from core.antialiasing.fxaa import around_edges
 from core.antialiasing.resolve import AROUND, filter_weights, grown, inner_of, reach_of, weighted_mean
 from core.antialiasing.traced_areas import PixelCuts, cuts_of, with_cuts
+from core.antialiasing.traced_fxaa import trace_filter
 from core.framebuffer.display import SRGB_LIMIT, encode_linear, encode_srgb, srgb, srgb_byte
 from core.framebuffer.traced import trace_blend
 from core.pipeline import draw
@@ -16,6 +19,7 @@ from core.records.frame import StageCount
 from core.records.listing import RETURN, Columns, Listing, Operation, listing
 from core.records.steps import Steps, ends_of
 from core.resolved import resolve
+from core.settings import Settings
 from core.stages.declared import STAGES
 from core.stages.vertices import process_geometry
 from core.trace.source import TraceSource
@@ -63,6 +67,11 @@ class Parts(NamedTuple):
 def trace_resolve(source: TraceSource) -> StageTrace:
     """Return one row for every pixel of the raster: its samples to a colour, linear colour to sRGB bytes."""
     parts, cuts, kind, method = None, None, "encode", ""
+    if resolve(source.settings).sampling.is_filtered:
+        wide = around_edges(source.raster)
+        plain = replace(source.settings, antialiasing=Settings.antialiasing)
+        color = draw(source.scene, plain, wide, last_drawn(source)).color
+        return trace_filter(source, color, inner_of(wide, source.raster), ENCODE)
     if resolve(source.settings).sampling.is_plain:
         blend = trace_blend(source)
         linear = blend.buffers[0].at(blend.steps.row_count).reshape(-1, 4)

@@ -257,12 +257,12 @@ def load_tracers() -> None:
 def trace_stage(source: TraceSource, name: str) -> StageTrace:
     """Trace a stage: of several samples a pixel, the stages before they are resolved have rows for each of them.
 
-    Exact areas have their own rows where they are resolved; before, the pixels' centres are followed.
+    Exact areas and filters have their own rows where pixels are resolved; before, the pixels' centres are followed.
     """
     antialiasing = source.settings.antialiasing
     if name == "resolve" or antialiasing == Settings.antialiasing:
         return tracer_of(name)(source)
-    if resolve(source.settings).sampling.is_area:
+    if resolve(source.settings).sampling.count == 1:
         at_centers = replace(source.settings, antialiasing=Settings.antialiasing)
         return tracer_of(name)(replace(source, settings=at_centers))
     return trace_samples(source, name, tracer_of(name))
