@@ -108,6 +108,11 @@ def is_right(text: str, situation: Situation) -> bool:
     return bool(parse_quoted(text).holds_of(_Names(situation))[0])
 
 
+def value_of(text: str, situation: Situation) -> Any:
+    """Return a number that a name or a call stands for, as ``drawn``; ValueError where there is none."""
+    return np.asarray(evaluate(ast.parse(text, mode="eval").body, _Names(situation))).item()
+
+
 def said_instead(text: str, situation: Situation) -> str:
     """Return what the program says where a comparison does not hold, as ``drawn is 12``; empty: no one number."""
     match parse_condition(text, CALLED).tree:

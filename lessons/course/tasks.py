@@ -100,10 +100,10 @@ def _settings(until: UntilPart, situation: Situation, start: Situation) -> bool:
 def _fails(until: UntilPart, situation: Situation, start: Situation) -> bool:
     assert until.fails is not None
     part = until.fails
-    return _failing(part, situation, part.weak) and not _failing(part, situation, part.robust)
+    return fails_on(part, situation, part.weak) and not fails_on(part, situation, part.robust)
 
 
-def _failing(part: FailsPart, situation: Situation, chosen: Mapping[str, str]) -> bool:
+def fails_on(part: FailsPart, situation: Situation, chosen: Mapping[str, str]) -> bool:
     """Return whether methods fail on the open scene."""
     frame = situation.frame(chosen)
     if part.by == "twice":
@@ -142,7 +142,7 @@ def _pixel(until: UntilPart, situation: Situation, start: Situation) -> bool:
 
 
 def _keeps(until: UntilPart, situation: Situation, start: Situation) -> bool:
-    return all(_is_kept(name, situation, start) for name in until.keeps)
+    return all(is_kept(name, situation, start) for name in until.keeps)
 
 
 def check_kept(names: list[str]) -> None:
@@ -153,7 +153,8 @@ def check_kept(names: list[str]) -> None:
             raise ValueError(f"expected one of {', '.join(KEPT)} or a family of methods, got {name!r:.40}")
 
 
-def _is_kept(name: str, situation: Situation, start: Situation) -> bool:
+def is_kept(name: str, situation: Situation, start: Situation) -> bool:
+    """Return whether what a task keeps is as the step gave it."""
     if name == "scene":
         return _is_same_scene(situation.scene, start.scene)
     if name == "size":

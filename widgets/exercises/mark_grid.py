@@ -13,8 +13,9 @@ from widgets.basics.accessibility import announce
 from widgets.basics.drawing import Mark, mark_pixmap
 from widgets.basics.theme import Theme, current_theme, text_font
 from widgets.exercises.records import Pixel, Pixels
-from widgets.grid.geometry import GridGeometry, moved_inside, paint_chip
+from widgets.grid.geometry import GridGeometry, paint_chip
 from widgets.grid.layers import CellMark, GridBuffer, MaskOverlay, Overlay
+from widgets.grid.names import moved_inside
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.view import GridPlacement
 

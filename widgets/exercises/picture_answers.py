@@ -4,7 +4,7 @@ import re
 from collections.abc import Collection
 from typing import Any
 
-from PySide6.QtCore import Qt, Slot
+from PySide6.QtCore import QEvent, QObject, Qt, Slot
 from PySide6.QtWidgets import QGridLayout, QLineEdit, QSlider, QWidget
 
 from core.records.cells import Form, Lattice, Marks
@@ -23,8 +23,13 @@ HOW_PIXELS = (
     "gives the next pixel the same mark."
 )
 
-LEGEND = "Tick: right. Square: missing. Cross: extra."
-DOUBLE = " Two bars: double, another triangle or line has the pixel."
+LEGEND = {
+    "right": "Tick: right.",
+    "missing": "Square: missing.",
+    "extra": "Cross: extra.",
+    "double": "Two bars: double, another triangle or line has the pixel.",
+}
+"""By kind, what its mark means."""
 
 _RUN = re.compile(r"\s*(\d{1,3})(?:\s*[-–]\s*(\d{1,3}))?\s*", re.ASCII)
 
@@ -60,6 +65,7 @@ class PixelAnswerView(AnswerView):
         row.insertStretch(1)
         layout.addLayout(row)
         layout.addWidget(self.rows)
+        grid.installEventFilter(self)
         grid.pixels_painted.connect(self._painted)
         grid.set_paintable(True)
         self._show()
@@ -82,9 +88,20 @@ class PixelAnswerView(AnswerView):
         """Mark what is right on the picture and in the rows."""
         self._marks = marks
         self._grid.show_marks(marks)
-        double = DOUBLE if marks is not None and marks.get("double") else ""
-        self.how.setText(HOW_PIXELS if marks is None else LEGEND + double)
+        self._show_legend()
         self._show()
+
+    def _show_legend(self) -> None:
+        """Say how pixels are marked, or what the marks mean that are seen."""
+        marks = {} if self._marks is None or self._grid.isHidden() else self._marks
+        legend = " ".join(text for kind, text in LEGEND.items() if marks.get(kind))
+        self.how.setText(HOW_PIXELS if self._marks is None else legend)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Follow the picture, which is left for another one."""
+        if event.type() in (QEvent.Type.ShowToParent, QEvent.Type.HideToParent):
+            self._show_legend()
+        return False
 
     def set_open(self, is_open: bool) -> None:
         """Take marks, or only show them."""
@@ -96,6 +113,7 @@ class PixelAnswerView(AnswerView):
 
     def release(self) -> None:
         """Leave the picture to the next form."""
+        self._grid.removeEventFilter(self)
         self._grid.pixels_painted.disconnect(self._painted)
         self._grid.set_paintable(False)
 

@@ -12,9 +12,10 @@ from core.records.arrays import is_alike
 from widgets.basics.accessibility import FocusRing
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.grid.canvas import GridCanvas, OutlineLayer
-from widgets.grid.geometry import GridGeometry, NameBox, name_boxes, paint_focus
+from widgets.grid.geometry import GridGeometry, NameBox, paint_focus
 from widgets.grid.layers import NO_VALUE, CenterOverlay, GridBuffer, Overlay
 from widgets.grid.marks import SampleDots, StepMark, marked_rect, paint_hover, paint_pin, paint_step_mark
+from widgets.grid.names import name_boxes
 from widgets.grid.paint import is_on_numbers, number_boxes
 from widgets.grid.rulers import paint_ruler_pixel, ruler_areas, ruler_size
 from widgets.grid.view import FIT, GridPlacement, GridView, clamped, place

@@ -1,12 +1,11 @@
-"""Primitives over a pixel grid: exact thin outlines, also behind the eye, handles at the vertices, and names."""
+"""Primitives over a pixel grid: exact thin outlines, also behind the eye, and handles at the vertices."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPen, QPolygonF, QRegion
+from PySide6.QtGui import QColor, QFont, QPainter, QPen, QPolygonF, QRegion
 
 from core.records.arrays import cached_property
 from widgets.basics.theme import Theme, text_font
@@ -76,12 +75,8 @@ No colour of an edge has 3:1 against every cell. Each has it against the casing,
 """
 SIDES = {3: (0, 1, 2), 2: (2,), 1: ()}
 """By the vertices of the primitive in focus, the edges that it has, each opposite to the vertex of its number."""
-_NAMED_LENGTH = 7.0
-"""Least length of an edge that is named, in heights of the text."""
 NameBox = tuple[QRectF, str, str]
 """Where a name is written, the name and its colour."""
-_ALONG = (0.5, 0.4, 0.6, 0.3, 0.7)
-"""Places along an edge at which its name may stand, the best first."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -273,7 +268,7 @@ def paint_focus(
                 painter.setBrush(QColor(color))
                 painter.drawEllipse(position, radius + more / 2, radius + more / 2)
         _paint_snapped(painter, placement, geometry, corners, scale)
-        painter.setFont(_name_font(theme))
+        painter.setFont(name_font(theme))
         for box, text, color in names:
             paint_chip(painter, box, text, color, theme)
     painter.restore()
@@ -313,108 +308,11 @@ def _paint_snapped(
             painter.drawPolygon(diamond)
 
 
-def _everywhere(box: QRectF) -> bool:
-    return True
-
-
-def name_boxes(
-    placement: GridPlacement,
-    geometry: GridGeometry,
-    theme: Theme,
-    is_free: Callable[[QRectF], bool] = _everywhere,
-) -> list[NameBox]:
-    """Return the boxes, texts and colours of the names of the vertices and edges of the primitive in focus.
-
-    Names of edges stand where the place ``is_free``, if there is such a place beside the edge.
-    """
-    if not geometry.focus_vertices:
-        return []
-    metrics = QFontMetrics(_name_font(theme))
-    names = _vertex_names(placement, geometry, theme, metrics)
-    if len(geometry.focus_vertices) == 3:
-        lines, source = widget_lines(
-            geometry.edges(geometry.triangles[geometry.focus][geometry.sides]), placement
-        )
-        names += _edge_names(
-            placement, geometry, list(zip(lines, source.tolist(), strict=True)), theme, metrics, is_free
-        )
-    return names
-
-
-def _name_font(theme: Theme) -> QFont:
+def name_font(theme: Theme) -> QFont:
+    """Return the font of names over a picture."""
     font = text_font(theme)
     font.setBold(True)
     return font
-
-
-def _vertex_names(
-    placement: GridPlacement, geometry: GridGeometry, theme: Theme, metrics: QFontMetrics
-) -> list[NameBox]:
-    """Return the names of the vertices away from the middle of the triangle."""
-    names = []
-    corners = list(geometry.focus_vertices)
-    with np.errstate(over="ignore", invalid="ignore"):
-        middle = geometry.vertices[corners].mean(axis=0)
-    for place, corner in enumerate(corners):
-        position = vertex_place(geometry, placement, corner)
-        text = geometry.label(corner)
-        if position is None or not text:
-            continue
-        with np.errstate(over="ignore", invalid="ignore"):
-            away = geometry.vertices[corner] - middle
-            length = float(np.hypot(away[0], away[1]))
-        if not np.isfinite(length) or length == 0.0:
-            away, length = np.array([0.0, 1.0]), 1.0
-        width, height = metrics.horizontalAdvance(text) + 8, metrics.height()
-        reach = HANDLE_RADIUS * theme.text_px / 13 + 8 + width / 2
-        box = QRectF(0, 0, width, height)
-        box.moveCenter(position + QPointF(away[0] / length * reach, -away[1] / length * (reach + 2)))
-        if QRectF(placement.viewport).contains(position):
-            box = moved_inside(box, QRectF(placement.viewport))
-        names.append((box, text, theme.vertex_text[geometry.color(place)]))
-    return names
-
-
-def _edge_names(
-    placement: GridPlacement,
-    geometry: GridGeometry,
-    edges: list[tuple[QLineF, int]],
-    theme: Theme,
-    metrics: QFontMetrics,
-    is_free: Callable[[QRectF], bool],
-) -> list[NameBox]:
-    """Return the name of each edge function beside its edge: outside of the triangle, or inside for want of room."""
-    names = []
-    owner = f" {geometry.owner}" if geometry.owner else ""
-    width, height = metrics.horizontalAdvance(f"E0{owner}") + 6, metrics.height()
-    viewport = QRectF(placement.viewport)
-    for line, edge in edges:
-        inside = viewport.intersected(QRectF(line.p1(), line.p2()).normalized().adjusted(-1, -1, 1, 1))
-        if line.length() < _NAMED_LENGTH * theme.text_px or inside.isEmpty():
-            continue
-        normal = line.normalVector().unitVector()
-        away = QPointF(normal.dx(), normal.dy())
-        middle = line.center()
-        right, up = _facing(geometry, geometry.focus_vertices[edge], placement.to_window(middle))
-        if away.x() * right - away.y() * up > 0:
-            away = -away
-        reach = away * (RIM + abs(away.x()) * width / 2 + abs(away.y()) * height / 2)
-        places = [line.pointAt(part) + side for side in (reach, -reach) for part in _ALONG]
-        box = QRectF(0, 0, width, height)
-        boxes = [moved_inside(box.translated(place - box.center()), viewport) for place in places]
-        chosen = next(filter(is_free, boxes), boxes[0])
-        names.append((chosen, f"E{edge}{owner}", theme.vertex_text[edge]))
-    return names
-
-
-def _facing(geometry: GridGeometry, vertex: int, place: tuple[float, float]) -> tuple[float, float]:
-    """Return the direction to the right and up in which a vertex lies from a place in the window, of any length."""
-    start = np.array(place)
-    direction = geometry.vertices[vertex] - start
-    if geometry.behind is not None and not np.isfinite(direction).all():
-        direction = towards(start, geometry.behind[vertex])
-    right, up = np.clip(direction, -1e6, 1e6).tolist()
-    return right, up
 
 
 def paint_chip(painter: QPainter, box: QRectF, text: str, color: str, theme: Theme) -> None:
@@ -426,13 +324,6 @@ def paint_chip(painter: QPainter, box: QRectF, text: str, color: str, theme: The
     painter.drawRoundedRect(box, 3, 3)
     painter.setPen(QColor(color))
     painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
-
-
-def moved_inside(box: QRectF, area: QRectF) -> QRectF:
-    """Return a box moved as little as it takes to lie in an area; its left and top do where it is too large."""
-    left = max(min(box.left(), area.right() - box.width()), area.left())
-    top = max(min(box.top(), area.bottom() - box.height()), area.top())
-    return QRectF(left, top, box.width(), box.height())
 
 
 def _place(placement: GridPlacement, position: NDArray[np.float64]) -> QPointF | None:

@@ -9,7 +9,7 @@ from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 
 from widgets.basics.image import mask_image
 from widgets.basics.theme import Theme, faded, text_font
-from widgets.grid.geometry import moved_inside, paint_chip
+from widgets.grid.geometry import paint_chip
 from widgets.grid.layers import (
     BlockOverlay,
     BlockState,
@@ -22,6 +22,7 @@ from widgets.grid.layers import (
     bounds,
 )
 from widgets.grid.marks import is_pattern, mark_color, pattern_brush, transparent_image
+from widgets.grid.names import moved_inside
 from widgets.grid.view import GridPlacement, widget_lines
 
 _GLYPH_CELL = 6.0

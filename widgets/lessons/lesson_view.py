@@ -355,6 +355,12 @@ class LessonView(QWidget):
             announce(self, self.feedback.text())
             self.feedback_shown.emit()
 
+    def show_hint(self, text: str) -> None:
+        """Show what a task lacks so far, where that has changed; empty: nothing."""
+        before = () if self._feedback is None else self._feedback.sentences
+        if (text,) != before and (text or before):
+            self.show_feedback(LessonFeedback((text,)) if text else None)
+
     def show_away(self, is_away: bool) -> None:
         """Offer to return where the learner has left the state of the step."""
         self.return_button.setEnabled(is_away)

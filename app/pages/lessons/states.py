@@ -25,6 +25,7 @@ from lessons.course.catalogue import Course, Lesson
 from lessons.course.quoted import Situation
 from lessons.course.state import State
 from lessons.course.tasks import is_done
+from lessons.course.unmet import unmet
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import Question
 from widgets.exercises.records import LessonStepRecord, Standing
@@ -327,6 +328,8 @@ WATCHED = Change.DOCUMENT | Change.EDITS | Change.CURSOR | Change.PIN
 @dataclass(frozen=True, eq=False)
 class _Answer:
     until: "UntilPart"
+    unmet: str
+    """What does not hold yet, where something has been tried."""
     is_done: bool
 
 
@@ -337,13 +340,15 @@ class LessonWatch(QObject):
     """The task is done now."""
     undone = Signal()
     """It was, and what is open now no longer does it."""
+    tried = Signal(str)
+    """What does not hold yet of what was changed, in a sentence; empty: nothing was, or nothing is to be said."""
 
     def __init__(self, session: Session, parent: QObject) -> None:
         super().__init__(parent)
         self._session = session
         self._until: UntilPart | None = None
         self._start: Situation | None = None
-        self._is_done = False
+        self._is_done = self._is_tried = False
         self._is_stale = False
         """Whether something has changed since the look that is being taken."""
         self._job = Job(self)
@@ -363,7 +368,7 @@ class LessonWatch(QObject):
     def begin(self, until: "UntilPart") -> None:
         """Watch for a task that begins with what is open now."""
         self._until, self._start = until, situation_of(self._session.moment)
-        self._is_done = self._is_stale = False
+        self._is_done = self._is_stale = self._is_tried = False
         self._job.cancel()
 
     def end(self) -> None:
@@ -375,6 +380,7 @@ class LessonWatch(QObject):
     def _follow(self, what: Change) -> None:
         if self._until is not None and what & WATCHED:
             self._is_stale = True
+            self._is_tried = self._is_tried or bool(what & (Change.DOCUMENT | Change.EDITS))
             self._look()
 
     def _look(self) -> None:
@@ -384,8 +390,7 @@ class LessonWatch(QObject):
         if until is None or start is None or is_dragged or self._job.is_running:
             return
         self._is_stale = False
-        now = situation_of(moment)
-        self._job.call(lambda: _Answer(until, is_done(until, now, start)))
+        self._job.call(partial(_answer, until, situation_of(moment), start, self._is_tried))
 
     @Slot(object)
     def _take(self, answer: _Answer) -> None:
@@ -394,8 +399,15 @@ class LessonWatch(QObject):
         if answer.is_done != self._is_done:
             self._is_done = answer.is_done
             (self.done if answer.is_done else self.undone).emit()
+        elif not answer.is_done:
+            self.tried.emit(answer.unmet)
         if self._is_stale:
             self._look()
+
+
+def _answer(until: "UntilPart", now: Situation, start: Situation, is_tried: bool) -> _Answer:
+    is_met = is_done(until, now, start)
+    return _Answer(until, "" if is_met or not is_tried else unmet(until, now, start), is_met)
 
 
 def situation_of(moment: Moment) -> Situation:

@@ -109,6 +109,7 @@ class LessonTask(QObject):
         self.answers.judged.connect(self._take_judged)
         self._watch.done.connect(self._take_done)
         self._watch.undone.connect(self._take_undone)
+        self._watch.tried.connect(self._take_tried)
         page.grid.view_changed.connect(self.grid.set_view)
         self._session.changed.connect(self._follow)
 
@@ -286,6 +287,12 @@ class LessonTask(QObject):
     def _take_undone(self) -> None:
         """Say at once that it is done no longer; the step stays done."""
         self.view.show_feedback(LessonFeedback((DONE_BEFORE,)))
+
+    @Slot(str)
+    def _take_tried(self, unmet: str) -> None:
+        """Say what a task lacks that was never done in this visit."""
+        if not self._is_done:
+            self.view.show_hint(unmet)
 
     @Slot()
     def _take_measured(self) -> None:

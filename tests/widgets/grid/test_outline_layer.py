@@ -7,7 +7,8 @@ from PySide6.QtGui import QImage, QPainter, QRegion
 
 from widgets.basics.theme import DARK, LIGHT, Theme
 from widgets.grid.canvas import OutlineLayer
-from widgets.grid.geometry import GridGeometry, name_boxes, outline_lines, paint_focus, paint_outlines
+from widgets.grid.geometry import GridGeometry, outline_lines, paint_focus, paint_outlines
+from widgets.grid.names import name_boxes
 from widgets.grid.view import GridPlacement, GridView, place
 
 pytestmark = pytest.mark.usefixtures("qapp")

@@ -13,9 +13,10 @@ from PySide6.QtWidgets import QApplication, QWidget
 
 from tests.widgets.grid.pixel_grids import LEFT, TRIANGLE, at, color_at, picture, shown_grid, wheel
 from widgets.basics.theme import current_theme
-from widgets.grid.geometry import GridGeometry, handle_part, name_boxes
+from widgets.grid.geometry import GridGeometry, handle_part
 from widgets.grid.layers import CellMark, GridBuffer, MaskOverlay
 from widgets.grid.marks import StepMark
+from widgets.grid.names import name_boxes
 from widgets.grid.paint import number_boxes, number_writing
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.rulers import ruler_labels
@@ -453,7 +454,7 @@ def test_no_mark_of_a_step_strikes_out_what_is_written(qtbot) -> None:
     mark = StepMark(lines=np.array([[[0.0, 0.6], [8.0, 0.6]]]), trail=trail)
     buffer = widget.buffer()
     assert buffer is not None
-    written = [box.toRect() for box, _, _ in name_boxes(placement, geometry, theme)]
+    written = [box.toRect() for box, _, _ in widget.names()]
     assert len(written) == 6
     writing = number_writing(placement, buffer, theme)
     assert writing is not None

@@ -1,0 +1,122 @@
+"""What of a task does not hold yet, in a sentence that names no solution."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from lessons.course.quoted import Situation, flags_of, is_right, value_of
+from lessons.course.record import UntilPart
+from lessons.course.tasks import fails_on, first_open, is_kept
+from lessons.exercises.drafting import different_pixels
+
+KEPT_TEXTS = {
+    "scene": "the task keeps the scene, and it has changed",
+    "size": "the task keeps the size of the picture, and it has changed",
+    "camera": "the task keeps the camera, and it has changed",
+    "settings": "the task keeps the methods, and another one is chosen",
+    "window": "the task keeps all corners inside the window",
+}
+COUNTED = {"drawn": "{} drawn", "tested": "{} tested", "seen": "{} seen"}
+"""Names of numbers that are counts of pixels, and what is said of these."""
+
+
+def unmet(until: UntilPart, situation: Situation, start: Situation) -> str:
+    """Return what does not hold yet; empty: all of it does, or the stage at hand does not have what is asked."""
+    try:
+        key = first_open(until, situation, start)
+        said = _SAID[key](until, situation, start) if key in _SAID else ""
+    except ValueError:
+        return ""
+    return f"Not yet: {said}." if said else "Not yet." if key else ""
+
+
+def _pixels(count: int, said: str = "{}") -> str:
+    """Return a count of pixels, as in ``1 pixel is drawn``."""
+    return said.format(f"{count:,} pixels are" if count > 1 else f"{'1' if count else 'no'} pixel is")
+
+
+def _steps(condition: str, situation: Situation) -> str:
+    count = int(np.count_nonzero(flags_of(condition, situation.trace)))
+    if not count:
+        return "no step of this stage does what the task asks for"
+    return f"{count:,} {'step' if count == 1 else 'steps'} of this stage {'does' if count == 1 else 'do'} it"
+
+
+def _some(until: UntilPart, situation: Situation, start: Situation) -> str:
+    return "no step of this stage does what the task asks for"
+
+
+def _none(until: UntilPart, situation: Situation, start: Situation) -> str:
+    return "a step of this stage still does what none should do"
+
+
+def _counted(until: UntilPart, situation: Situation, start: Situation) -> str:
+    condition, _ = until.count or until.least or until.most or ("", 0)
+    return _steps(condition, situation)
+
+
+def _settings(until: UntilPart, situation: Situation, start: Situation) -> str:
+    return "the task asks for another method"
+
+
+def _keeps(until: UntilPart, situation: Situation, start: Situation) -> str:
+    lost = next(name for name in until.keeps if not is_kept(name, situation, start))
+    return KEPT_TEXTS.get(
+        lost, f"the task keeps the method of {lost.replace('_', ' ')}, and another one is chosen"
+    )
+
+
+def _drawn(until: UntilPart, situation: Situation, start: Situation) -> str:
+    return _pixels(value_of("drawn", situation), COUNTED["drawn"])
+
+
+def _tested(until: UntilPart, situation: Situation, start: Situation) -> str:
+    return _pixels(value_of("tested", situation), COUNTED["tested"])
+
+
+def _decisions(until: UntilPart, situation: Situation, start: Situation) -> str:
+    return f"{value_of('decisions', situation):,} blocks and pixels are tested"
+
+
+def _same(until: UntilPart, situation: Situation, start: Situation) -> str:
+    count = len(different_pixels(situation.frame(), situation.frame(until.same)))
+    return f"{count:,} {'pixel still differs' if count == 1 else 'pixels still differ'}"
+
+
+def _fails(until: UntilPart, situation: Situation, start: Situation) -> str:
+    assert until.fails is not None
+    is_weak = fails_on(until.fails, situation, until.fails.weak)
+    return (
+        "the method that should stay right fails, too" if is_weak else "the method that should fail does not"
+    )
+
+
+def _holds(until: UntilPart, situation: Situation, start: Situation) -> str:
+    text = next(text for text in until.holds if not is_right(text, situation))
+    name = text.split()[0]
+    if name in COUNTED:
+        return _pixels(value_of(name, situation), COUNTED[name])
+    if name.startswith("edited("):
+        return "your version gives other values" if situation.edits else "the listing is unchanged"
+    if name.startswith("differs("):
+        count = value_of(text[: text.index(")") + 1], situation)
+        return f"{count:,} {'pixel differs' if count == 1 else 'pixels differ'}"
+    return ""
+
+
+_SAID: dict[str, Callable[[UntilPart, Situation, Situation], str]] = {
+    "settings": _settings,
+    "keeps": _keeps,
+    "some": _some,
+    "none": _none,
+    "count": _counted,
+    "least": _counted,
+    "most": _counted,
+    "pixels": _drawn,
+    "tested": _tested,
+    "decisions": _decisions,
+    "same": _same,
+    "fails": _fails,
+    "holds": _holds,
+}
+"""By key of `UntilPart`, what is said while it does not hold; nothing of where the cursor is to stand."""
