@@ -129,8 +129,9 @@ def facts(scene: AnyScene | None) -> list[str]:
 
 
 def casts_rays(visibility: str) -> bool:
-    """Return whether a setting is a method, with its own function, that compares the hits of rays: its trait."""
-    return not isinstance(visibility, ReplacedName) and table.get("visibility", visibility).traits == "rays"
+    """Return whether a setting is a method, with its own function, that compares triangles exactly: by its trait."""
+    found = None if isinstance(visibility, ReplacedName) else table.get("visibility", visibility).traits
+    return found in ("rays", "scan-lines")
 
 
 def suited(settings: Any, scene: AnyScene) -> Any:

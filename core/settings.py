@@ -177,6 +177,7 @@ class Settings:
         "depth",
         "core.visibility.painters",
         "core.visibility.ray_casting",
+        "core.visibility.scan_line",
         classical=("z-buffer", "painters", "ray-casting"),
     )
     depth: str = choice(

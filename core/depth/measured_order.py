@@ -33,6 +33,7 @@ from core.study.workloads import (
     sphere_mesh,
     wall_scene,
 )
+from core.visibility.measured_scan_line import scan_line_work
 
 # Studies of what is seen: hidden surfaces, culling, depth formats and polygon clipping, against exact
 # comparison.
@@ -60,15 +61,22 @@ class VisibilityTask(SeenTask):
         -----
         Ray casting as the lectures have it (for each pixel, for each object) tests every ray against every triangle.
         This program finds the same hits by filling triangles, which are the pixels tested and covered, and compares
-        them.
+        them. A depth buffer and ray casting compute a depth for each fragment; scan lines compute those at the ends of
+        segments where several triangles are live.
         """
         counts, drawing = super().counts(settings, made), table.get("visibility", settings.visibility)
         order = drawing.function(self._clip)
         compared = counts.pop("depth tests")
+        lines = scan_line_work(self.scene, settings)
+        casts_rays = order.casts_rays and not lines
+        computed = lines.get("depths computed", compared if order.uses_depth_test else 0)
         return counts | {
             "depth tests": compared if order.uses_depth_test and not order.casts_rays else 0,
-            "hits compared": compared if order.casts_rays else 0,
-            "rays times triangles": SIZE[0] * SIZE[1] * len(self._clip) if order.casts_rays else 0,
+            "depths computed": computed,
+            "span ends sorted": lines.get("span ends sorted", 0),
+            "depths and span ends": computed + lines.get("span ends sorted", 0),
+            "hits compared": compared if casts_rays else 0,
+            "rays times triangles": SIZE[0] * SIZE[1] * len(self._clip) if casts_rays else 0,
             "triangles sorted": 0
             if order.uses_depth_test or settings.visibility == "last-drawn"
             else len(self._clip),

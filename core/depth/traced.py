@@ -17,8 +17,10 @@ from core.stages.fragments import fragment_quantity, logarithm_range, outlines_o
 from core.trace.row_order import in_order
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
+from core.visibility.scan_line import ScanLines
 from core.visibility.traced import trace_rays
 from core.visibility.traced_by_pixel import with_misses
+from core.visibility.traced_scan_line import trace_scan_lines
 
 # Keys of the depth method ``fixed-38`` in the trace: depth and triangle in one number, the least of which
 # is kept.
@@ -178,6 +180,8 @@ CELL = (
 
 def trace_depth(source: TraceSource) -> StageTrace:
     """Return one row for every fragment, in the order that the method of visibility asks for."""
+    if isinstance(source.ray_tests, ScanLines):
+        return trace_scan_lines(source, source.ray_tests)
     found = _trace_tests(source) if source.ray_tests is None else trace_rays(source, source.ray_tests)
     if source.geometry.asks_all:
         found = with_misses(source, found)

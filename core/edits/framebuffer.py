@@ -136,7 +136,7 @@ def depth_test_is_passed_over(settings: Settings, scene: Any) -> str:
 def depth_format_is_passed_over(settings: Settings, scene: Any) -> str:
     """Return why an edited depth format would not run."""
     if casts_rays(settings.visibility):
-        return "Rays compare triangles exactly, without a depth buffer."
+        return "Triangles are compared exactly, without a depth buffer."
     return ""
 
 

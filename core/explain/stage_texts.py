@@ -82,6 +82,11 @@ def _depth_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
     return [*tested, f"{counts['covered']:,} kept", f"{counts['depth-failed']:,} hidden or out of range"]
 
 
+def _scan_line_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
+    ties = [f"{counted(counts['tie'], 'tie')}"] if counts["tie"] else []
+    return [counted(counts["rows"], "step"), f"{counted(counts['covered'], _place(counts))} drawn", *ties]
+
+
 def _rows_account(noun: str, done: str) -> Account:
     """Return the account of a stage that does one thing to every row."""
     return lambda counts, _: [
@@ -218,6 +223,8 @@ def summary_sentence(
     account_of, group = ACCOUNTS[stage], drawn.text(stage_of(stage).group)
     if family == "line":
         account_of, group = _line_account, "" if drawn.one == "point" else "one line"
+    if method == "visibility=scan-line":
+        account_of = _scan_line_account
     if family == "fill":
         # A lane is set up before its spans are filled.
         group = "one " + fill_traits(name).group_label.lower().split(" or ")[-1 if known["covered"] else 0]

@@ -30,6 +30,7 @@ from core.stages.fragments import (
 )
 from core.stages.hidden_surfaces import cleared_buffers, run_visibility_tests
 from core.trace.source import TraceSource
+from core.visibility.scan_line import ScanLines
 
 # What the history of a pixel is made of: keys and numbers, no sentences.
 
@@ -153,6 +154,8 @@ class PixelFragments:
     """The number that the depth format stores a depth of 1 as: above 1 it stores whole numbers."""
     signs: Integers | None
     """(F,) int64, where rays are cast: 1 nearer than the nearest so far, -1 farther, 0 equally near or out of range."""
+    seen: int | None = None
+    """The triangle that all of them were compared with at once, where a row is decided span by span."""
 
 
 def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> PixelFragments:
@@ -180,6 +183,7 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
     if rays is not None:
         signs = np.zeros(count, np.int64)
         signs[index] = rays.sign
+    seen = int(rays.seen[0]) if isinstance(rays, ScanLines) and len(index) else None
     return PixelFragments(
         primitive,
         geometry.primitives.triangle[primitive],
@@ -196,6 +200,7 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
         np.ones(count, bool) if writes is None else writes,
         depth_format.scale,
         signs,
+        seen,
     )
 
 
@@ -257,6 +262,9 @@ def _depth_link(fragments: PixelFragments, k: int, holder: int, tested: bool) ->
         key = "not-tested"
     elif fragments.signs is not None:
         key = {1: "ray-nearer", 0: "ray-tied", -1: "ray-farther"}[int(fragments.signs[k])]
+        if fragments.seen is not None:
+            key = {1: "scan-nearest", 0: "scan-tied", -1: "scan-farther"}[int(fragments.signs[k])]
+            values["against"] = fragments.seen
     elif fragments.passes[k]:
         key = "passed"
     else:

@@ -241,6 +241,14 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     ("depth", "ray-tied"): lambda v: (
         f"the ray meets it exactly where it meets {_holder(v)}, which came first"
     ),
+    (
+        "depth",
+        "scan-nearest",
+    ): "the nearest in its segment of the row: nothing here is nearer, compared exactly",
+    ("depth", "scan-farther"): lambda v: (
+        f"in its segment of the row {_holder(v)} is nearer, compared exactly"
+    ),
+    ("depth", "scan-tied"): lambda v: f"exactly as near as {_holder(v)}, and a tie keeps what is drawn first",
     ("depth", "not-tested"): lambda v: f"depth {exact_text(v['stored'])} stored without a test",
     ("depth", "before-near"): lambda v: (
         f"in front of the near plane: depth {exact_text(v['depth'])} is below 0"

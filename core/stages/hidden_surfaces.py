@@ -1,6 +1,6 @@
 """Which fragments are seen: by the depth buffer, by drawing order, or by exact rays.
 
-It joins the depth buffer and ray casting; picture, trace and history of a pixel ask it alike.
+It joins the depth buffer, ray casting and scan lines; picture, trace and history of a pixel ask it alike.
 """
 
 from collections.abc import Callable, Sequence
@@ -28,6 +28,7 @@ from core.resolved import resolve
 from core.stages.fragments import fragments_at, owner_of
 from core.stages.geometry import Geometry
 from core.visibility.ray_casting import RayTests, run_ray_tests
+from core.visibility.scan_line import ScanLines, find_scan_lines
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +55,7 @@ def run_visibility_tests(
     start: StartBuffers,
     raster: Raster,
     depth_format: DepthFormat,
-) -> tuple[DepthTests, RayTests | None]:
+) -> tuple[DepthTests, RayTests | ScanLines | None]:
     """Decide of F fragments in drawing order which are kept, each against what is there before it.
 
     Parameters
@@ -66,8 +67,8 @@ def run_visibility_tests(
     -------
     tests : DepthTests
         The buffer before each fragment, and which pass.
-    rays : RayTests, optional
-        Where the scene casts rays: how that was decided.
+    rays : RayTests or ScanLines, optional
+        Where triangles are compared exactly: how that was decided.
     """
     writes = writes_depth(fragments)
     if not geometry.casts_rays:
@@ -76,6 +77,21 @@ def run_visibility_tests(
     planes = geometry.ray_planes
     m, n = planes.rays(fragments.column, fragments.row, raster.center)
     triangle = geometry.primitives.triangle.take(fragments.primitive)
+    by_lines = resolve(geometry.settings).method("visibility").traits == "scan-lines"
+    if by_lines and geometry.outlines is None:
+        # Lines have no spans: each of their pixels is compared for itself.
+        pixel = raster.index(fragments.column, fragments.row)
+        lines = find_scan_lines(
+            planes,
+            triangle,
+            fragments.primitive,
+            fragments.column,
+            fragments.row,
+            pixel,
+            start.triangle,
+            raster.center,
+        )
+        return DepthTests(replay_depths(stored, stacks, start.depth, lines.passes), lines.passes), lines
     rays = run_ray_tests(planes, triangle, m, n, stacks.layers(), start.triangle.take(stacks.pixel), writes)
     kept = rays.passes if writes is None else rays.passes & writes
     return DepthTests(replay_depths(stored, stacks, start.depth, kept), rays.passes), rays

@@ -34,6 +34,7 @@ from core.stages.hidden_surfaces import StartBuffers, run_visibility_tests
 from core.stages.needs import check_edits
 from core.stages.vertices import Geometry, drawing_order, process_geometry
 from core.visibility.ray_casting import RayTests
+from core.visibility.scan_line import ScanLines
 
 # How long a trace is at most: each pixel test keeps all its numbers, so some runs are too long to be kept.
 
@@ -203,7 +204,7 @@ class TraceSource:
         return writes_depth(self.fragments)
 
     @cached_property
-    def _visibility_tests(self) -> tuple[DepthTests, RayTests | None]:
+    def _visibility_tests(self) -> tuple[DepthTests, RayTests | ScanLines | None]:
         """The tests of the fragments in depth range."""
         _, keeps, stored = self.depths
         start = StartBuffers(self.start.depth.ravel(), self.start.primitive.ravel().astype(np.int64))
@@ -219,8 +220,8 @@ class TraceSource:
         )
 
     @property
-    def ray_tests(self) -> RayTests | None:
-        """How the rays through the pixels of the fragments in depth range were decided; ``None``: none are cast."""
+    def ray_tests(self) -> RayTests | ScanLines | None:
+        """How the fragments in depth range were compared exactly; ``None``: they were not."""
         return self._visibility_tests[1]
 
     @cached_property

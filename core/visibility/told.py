@@ -8,10 +8,10 @@ from core.explain.records import Asked, choice
 from core.explain.step_values import Said, StepValues, explains
 from core.explain.term_latex import Written
 
-_NEW, _NEAREST = below("v", "new"), below("v", "nearest")
+NEW, NEAREST = below("v", "new"), below("v", "nearest")
 
 
-def _measure(step: StepValues) -> str:
+def measure(step: StepValues) -> str:
     """Return what decides which of two hits is nearer: the larger one is."""
     return "1/w" if step.flag("by_w") else "−z/w"
 
@@ -31,7 +31,7 @@ def nearer(step: StepValues) -> Asked:
 def hit(step: StepValues) -> Said:
     """Where the ray meets the plane of a triangle, in the coordinates X = m/W and Y = n/H."""
     value, error = step.named("nearness", "v"), step.number("error")
-    text = f"the ray meets {step.name} at {_measure(step)} = {value}, within {spoken(error)}."
+    text = f"the ray meets {step.name} at {measure(step)} = {value}, within {spoken(error)}."
     if math.isinf(error):
         text = (
             f"the ray runs in the plane of {step.name}, or so nearly that float64 cannot locate the hit; "
@@ -46,7 +46,7 @@ def hit(step: StepValues) -> Said:
 def bound(step: StepValues) -> Said:
     """How far rounding may have moved the hit."""
     error = step.named("error", "e")
-    text = f"rounding has moved this {_measure(step)} by at most {error}."
+    text = f"rounding has moved this {measure(step)} by at most {error}."
     if math.isinf(error.value):
         text = "float64 cannot bound the rounding error of this hit."
     return f"{step.pixel_name}: {text}", formula_of(error)
@@ -67,12 +67,10 @@ def compared(step: StepValues) -> Said:
     shown, shown_old = pair_text(new, old)
     verdict, than = ("passes", "larger") if step.flag("passes") else ("fails", "smaller")
     text = (
-        f"{step.pixel_name} {verdict}: {_measure(step)} {shown} is {than} than {shown_old} of "
+        f"{step.pixel_name} {verdict}: {measure(step)} {shown} is {than} than {shown_old} of "
         f"{step.named_primitive(nearest)}, and by more than both errors together."
     )
-    return text, formula_of(
-        concludes("passes", verdict, named(_NEW, new).compared(">", named(_NEAREST, old)))
-    )
+    return text, formula_of(concludes("passes", verdict, named(NEW, new).compared(">", named(NEAREST, old))))
 
 
 @explains("depth.ray-exact.doubt")
@@ -81,9 +79,9 @@ def doubted(step: StepValues) -> Said:
     errors = named(
         f"{below('e', 'new')} + {below('e', 'nearest')}", step.number("error") + step.number("nearest_error")
     )
-    apart = named(f"|{_NEW} - {_NEAREST}|", abs(step.number("nearness") - step.number("nearest_nearness")))
+    apart = named(f"|{NEW} - {NEAREST}|", abs(step.number("nearness") - step.number("nearest_nearness")))
     text = (
-        f"{step.pixel_name}: {step.named_primitive(step.whole('nearest'))} is {apart} away in {_measure(step)}, "
+        f"{step.pixel_name}: {step.named_primitive(step.whole('nearest'))} is {apart} away in {measure(step)}, "
         f"within the errors of {errors}: float64 cannot decide."
     )
     if math.isinf(errors.value):
@@ -99,7 +97,7 @@ def exact(step: StepValues) -> Said:
     text = f"{verdict}: compared in whole numbers, without any error, it is {word} than {nearest}."
     if sign == 0:
         text = f"fails: in whole numbers it is exactly as near as {nearest}, and a tie keeps that."
-    side = named(rf"\mathrm{{sign}}({_NEW} - {_NEAREST})", sign)
+    side = named(rf"\mathrm{{sign}}({NEW} - {NEAREST})", sign)
     return f"{step.pixel_name} {text}", formula_of(concludes("passes", verdict, side.compared(">")))
 
 

@@ -13,7 +13,8 @@ from tests.core.trace.executed_rows import equal, rows_of_kind
 def check_rays(traced: Trace) -> None:
     found, planes = traced.stage("depth"), traced.source.geometry.ray_planes
     c, (width, height) = found.columns, traced.source.scene.size
-    for kind, has_nearest in (("ray-first", False), ("ray", True), ("ray-exact", True)):
+    name = "end" if "end" in found.steps.kinds else "ray"
+    for kind, has_nearest in ((f"{name}-first", False), (name, True), (f"{name}-exact", True)):
         for row in rows_of_kind(found, kind):
             (triangle, nearest), ray = (
                 (found.triangle[row], c["nearest"][row]),

@@ -198,6 +198,9 @@ def test_visibility(seed: int) -> None:
         covered = counts["z-buffer"]["pixels covered"]
         assert counts["ray-casting"]["rays times triangles"] == count * pixels
         assert counts["ray-casting"]["hits compared"] == counts["z-buffer"]["depth tests"] == covered
+        assert found["scan-line"].errors["wrong-visible"] == 0
+        assert 0 < counts["scan-line"]["depths computed"] < counts["z-buffer"]["depths computed"] == covered
+        assert counts["scan-line"]["depth tests"] == counts["scan-line"]["hits compared"] == 0
         assert counts["ray-casting"]["depth tests"] == counts["painters"]["depth tests"] == 0
         assert (counts["painters"]["triangles sorted"], counts["last-drawn"]["triangles sorted"]) == (
             count,

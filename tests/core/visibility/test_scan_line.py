@@ -1,0 +1,184 @@
+"""Scan-line visible surfaces: the picture of ray casting, bit for bit; what is compared, and how rarely."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from core import ClipScene, Settings, render, trace
+from core.coverage.pixel_runs import Raster
+from core.pipeline import draw
+from core.visibility.scan_line import ALONE, HALVED, PAIR, SAME, ScanLines, Spans, draw_rows
+from lessons.scenes import make_scene
+from tests.core.strategies import ANY_TRIANGLES, REGIONS, clip_of_window
+from tests.core.trace.trace_cases import SCENES
+
+RAYS, LINES = Settings(visibility="ray-casting"), Settings(visibility="scan-line")
+BUFFERS = ("color", "depth", "primitive", "attributes", "cover_count")
+
+
+def assert_alike(scene, settings: Settings = LINES, region=None) -> None:
+    """Every buffer of the scan-line picture equals the one that ray casting draws."""
+    frames = [
+        render(scene, chosen) if region is None else draw(scene, chosen, Raster(*scene.size, 0.5, region))
+        for chosen in (settings, replace(settings, visibility="ray-casting"))
+    ]
+    for name in BUFFERS:
+        assert np.array_equal(*(getattr(frame, name) for frame in frames), equal_nan=True), name
+
+
+def scan_lines(scene, settings: Settings = LINES, **chosen) -> ScanLines:
+    """Return what the method decides of a scene."""
+    found = trace(scene, settings, **chosen).source.ray_tests
+    assert isinstance(found, ScanLines)
+    return found
+
+
+def crowd(count: int, size: tuple[int, int], seed: int = 0) -> np.ndarray:
+    """Return random triangles (T, 3, 4) at many depths, many of which cross."""
+    generator = np.random.default_rng(seed)
+    points = generator.uniform(0, 1, (count, 1, 2)) * size + generator.normal(0, 0.4, (count, 3, 2)) * size
+    z = generator.uniform(-1, 1, (count, 3))
+    return clip_of_window(points, size, generator.uniform(1, 4, (count, 3)), z)
+
+
+@given(
+    ANY_TRIANGLES,
+    st.sampled_from(["half", "integer"]),
+    st.sampled_from(["homogeneous", "sutherland-hodgman"]),
+)
+def test_the_picture_is_that_of_ray_casting(case, center: str, clipping: str) -> None:
+    clip, size = case
+    settings = replace(LINES, cull="none", pixel_center=center, clipping=clipping)
+    assert_alike(ClipScene(clip, size=size), settings)
+
+
+@given(st.integers(1, 12), st.integers(0, 2**32 - 1), REGIONS)
+def test_crossing_triangles_and_parts_of_a_picture(count: int, seed: int, region) -> None:
+    scene = ClipScene(crowd(count, (13, 9), seed), size=(13, 9))
+    assert_alike(scene)
+    assert_alike(scene, region=region)
+
+
+@pytest.mark.parametrize("antialiasing", ["ssaa-4", "msaa-4", "area"])
+def test_samples_in_other_places_and_areas(antialiasing: str) -> None:
+    scene = ClipScene(crowd(9, (13, 9)), size=(13, 9))
+    assert_alike(scene, replace(LINES, antialiasing=antialiasing))
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_every_kind_of_scene(name: str) -> None:
+    # Segments and points, polygons, meshes, textures, shaders that discard, tables of depths.
+    assert_alike(SCENES[name])
+
+
+def test_outlines_are_compared_pixel_by_pixel() -> None:
+    scene = ClipScene(crowd(9, (13, 9)), size=(13, 9))
+    for line in ("bresenham", "wu"):
+        assert_alike(scene, replace(LINES, polygon_mode="wireframe", line=line))
+
+
+@given(st.integers(1, 8), st.integers(0, 2**32 - 1))
+def test_a_part_of_a_scene_is_drawn_over_the_picture_before(count: int, seed: int) -> None:
+    scene = ClipScene(crowd(count, (9, 7), seed), size=(9, 7))
+    for triangle in range(count):
+        lines = scan_lines(scene, triangle=triangle)
+        rays = trace(scene, RAYS, triangle=triangle).source.depth_tests
+        fragment = trace(scene, LINES, triangle=triangle).source.depths[1]
+        assert np.array_equal(lines.passes, rays.passes[fragment])
+
+
+def test_what_breaks_programs_draws_what_there_is() -> None:
+    # None, one without area, one pixel, triangles of one plane: ties keep the first one drawn.
+    size = (8, 5)
+    plane = [[(0, 0), (20, 0), (0, 20)], [(8, 5), (-9, 5), (8, -9)], [(0, 0), (20, 0), (0, 20)]]
+    flat = [[(0, 0), (4, 4), (8, 8)]]
+    dot = [[(2, 2), (3.2, 2), (2, 3.2)]]
+    assert (render(ClipScene(np.empty((0, 3, 4)), size=size), LINES).primitive == -1).all()
+    assert (render(ClipScene(clip_of_window(flat, size), size=size), LINES).primitive == -1).all()
+    assert_alike(ClipScene(clip_of_window(dot, size), size=size))
+    frame = render(ClipScene(clip_of_window(plane, size), size=size), replace(LINES, cull="none"))
+    assert (frame.primitive[frame.primitive >= 0] == 0).sum() > 0
+    assert_alike(ClipScene(clip_of_window(plane, size), size=size), replace(LINES, cull="none"))
+
+
+@given(st.integers(1, 12), st.integers(0, 2**32 - 1))
+def test_segments_tile_what_is_covered_and_their_ends_decide(count: int, seed: int) -> None:
+    lines = scan_lines(
+        ClipScene(crowd(count, (13, 9), seed), size=(13, 9)), replace(LINES, cull="none"), triangle=None
+    )
+    spans, segments = lines.spans, lines.segments
+    ends = {
+        (int(row), int(end))
+        for side in (spans.left, spans.right)
+        for row, end in zip(spans.row, side, strict=True)
+    }
+    times = np.zeros((9, 13), int)
+    for part in range(len(segments)):
+        row, left, right = (int(values[part]) for values in (segments.row, segments.left, segments.right))
+        live = segments.live[segments.live_start[part] : segments.live_start[part + 1]]
+        if segments.depth[part] == 0:
+            assert {(row, left), (row, right)} <= ends
+            assert not any((row, column) in ends for column in range(left + 1, right))
+        assert (spans.row[live] == row).all()
+        assert (spans.left[live] <= left).all()
+        assert (spans.right[live] >= right).all()
+        assert (segments.verdict[part] == ALONE) == (len(live) == 1)
+        first, last = segments.nearest[part]
+        assert (first == last) == (segments.verdict[part] in (ALONE, SAME))
+        assert (segments.verdict[part] == PAIR) <= (right - left == 2)
+        if segments.verdict[part] != HALVED:
+            times[row, left:right] += 1
+    covered = render(ClipScene(crowd(count, (13, 9), seed), size=(13, 9)), replace(LINES, cull="none"))
+    assert np.array_equal(times, covered.cover_count > 0)
+
+
+def spans_of(spans: Spans) -> dict[int, dict[int, tuple[int, int]]]:
+    """Return by triangle and row where it begins and ends."""
+    found: dict[int, dict[int, tuple[int, int]]] = {t: {} for t in sorted(set(spans.triangle.tolist()))}
+    for row, left, right, t in zip(spans.row, spans.left, spans.right, spans.triangle, strict=True):
+        found[int(t)][int(row)] = (int(left), int(right))
+    return found
+
+
+@given(st.integers(1, 9), st.integers(0, 2**32 - 1))
+def test_the_listing_draws_the_picture(count: int, seed: int) -> None:
+    scene, settings = ClipScene(crowd(count, (13, 9), seed), size=(13, 9)), replace(LINES, cull="none")
+    lines = scan_lines(scene, settings)
+
+    def nearest(live: list[int], column: int, row: int) -> int:
+        m, n = lines.planes.rays(np.array([column]), np.array([row]), 0.5)
+        best = live[0]
+        for t in live[1:]:
+            if lines.planes.compare(t, best, m.tolist(), n.tolist()) == [1]:
+                best = t
+        return best
+
+    seen = np.full((9, 13), -1)
+    for row, left, right, t in draw_rows(spans_of(lines.spans), range(9), nearest):
+        assert (seen[row, left:right] == -1).all()
+        seen[row, left:right] = t
+    assert np.array_equal(seen, render(scene, settings).primitive)
+
+
+def test_only_halving_computes_more_depths_than_a_depth_buffer_tests() -> None:
+    settings = replace(LINES, cull="none")
+    scene = make_scene("intersecting")
+    segments = scan_lines(scene, settings).segments
+    assert (segments.evaluations, int((segments.verdict == HALVED).sum())) == (628, 71)
+    assert render(scene, settings).statistics["depth"].incoming == 2060
+    for count in (4, 40, 150):
+        lines = scan_lines(ClipScene(crowd(count, (24, 16)), size=(24, 16)), settings)
+        is_halved = lines.segments.verdict == HALVED
+        of_halved = (lines.segments.compared_ends * lines.segments.live_count)[is_halved].sum()
+        assert lines.segments.evaluations - of_halved <= len(lines.passes)
+
+
+@pytest.mark.slow
+def test_a_hundred_thousand_triangles() -> None:
+    generator = np.random.default_rng(0)
+    points = generator.uniform(0, 1, (100_000, 1, 2)) * (320, 240) + generator.normal(0, 2, (100_000, 3, 2))
+    z = generator.uniform(-1, 1, (100_000, 3))
+    assert_alike(ClipScene(clip_of_window(points, (320, 240), 1.0, z), size=(320, 240)))
