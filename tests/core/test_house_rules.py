@@ -16,7 +16,6 @@ MODULES = sorted(module.name for module in pkgutil.walk_packages([str(FOLDER)], 
 ARRAY_WORDS = ("Floats", "Integers", "Flags", "Singles", "Bytes", "NDArray", "ndarray", "ArrayLike")
 LINE_LIMIT = 450
 TOO_LONG = {
-    "app/pages/exercises/question_presenter.py",
     "app/pages/step/ab/presenter.py",
     "app/pages/step/listing_presenter.py",
     "app/pages/step/page.py",

@@ -1,14 +1,16 @@
 """Questions on the Exercises page: how they are drawn, how answers are checked, and what can be undone."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
+from random import SystemRandom
 from typing import Any
 
 import numpy as np
 from PySide6.QtCore import QObject, Slot
 
 from app.background import Progress
+from app.files.kept_work import Unfinished
 from app.files.user_folders import attempt_file
 from app.pages.step.grid_records import geometry_of
 from app.session.document import STEPPED, Document, open_document
@@ -248,13 +250,27 @@ class Checked:
     """Of a wrong listing, its picture where one is wanted."""
 
 
-def asking(template: Template, seed: int, *, is_afresh: bool) -> Work:
-    """Return the work that draws a question; it raises ValueError where none can be drawn."""
+VARIANTS = 10_000
+"""Seeds that new variants are drawn from: short ones, to be read out."""
 
-    def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Asked:
-        return drawn(ask(template, seed), is_afresh=is_afresh)
 
-    return work
+def new_seed() -> int:
+    """Return the seed of a new variant."""
+    return SystemRandom().randrange(VARIANTS)
+
+
+def wanted_seed(template: Template, seed: int | None, kept: Mapping[str, Unfinished]) -> int:
+    """Return the seed that is wanted, or that of the last question, or a new one."""
+    if seed is not None:
+        return seed
+    last = kept.get(template.name)
+    return last.seed if last is not None and last.version == template.version else new_seed()
+
+
+def asking(template: Template, seed: int | None, kept: Mapping[str, Unfinished]) -> Callable[..., Asked]:
+    """Return the work that draws a question of `wanted_seed`; it raises ValueError where none can be drawn."""
+    chosen = wanted_seed(template, seed, kept)
+    return lambda *_: drawn(ask(template, chosen), is_afresh=seed is not None)
 
 
 def drawn(question: Question, *, is_afresh: bool = False) -> Asked:

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from random import SystemRandom
 from time import monotonic
 from typing import Any
 
@@ -21,43 +20,30 @@ from app.pages.exercises.answers import (
     asking_apart,
     checking,
     drawing,
-    drawn,
+    new_seed,
     numbers_of,
     picture_of,
     place_of,
     size_of,
     trying,
 )
-from app.pages.exercises.evidence import (
-    Evidence,
-    feedback_of,
-    marks_are_shown,
-    not_checked_text,
-    show_tried,
-    wanted_picture,
-)
+from app.pages.exercises.evidence import Evidence, wanted_picture
+from app.pages.exercises.feedback import LastCheck, not_checked_text, show_tried
 from app.pages.page_bar import Page
 from core.records.words import counted
-from lessons.attempts.practice import MISSES_IN_A_ROW, TRY_LIMIT, first_tries, is_correction, misses_in_a_row
+from lessons.attempts.practice import TRY_LIMIT
 from lessons.attempts.record import Attempt
 from lessons.exercises.answers.answer import NotCheckedError, Response
 from lessons.exercises.answers.choices import SpotAnswer
 from lessons.exercises.answers.listings import CannotRunError
 from lessons.exercises.answers.steps import StepsAnswer
-from lessons.exercises.question import Question, Template, ask, hints_after
+from lessons.exercises.question import Question, Template, hints_after
 from lessons.scene_edits import scene_digest
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.question_view import QuestionView
 from widgets.exercises.records import QuestionRecord
 
-VARIANTS = 10_000
-"""Seeds that new variants are drawn from: short ones, to be read out."""
 SURE = "The model answer ends this question without points. Choose Model answer again to show it."
-
-
-def new_seed() -> int:
-    """Return the seed of a new variant."""
-    return SystemRandom().randrange(VARIANTS)
 
 
 class QuestionPresenter(QObject):
@@ -81,21 +67,16 @@ class QuestionPresenter(QObject):
         """Begin without a question; ``attempts`` returns those of the learner so far."""
         super().__init__(page)
         self._page = page
-        self._view, self._grid, self._unfinished, self._attempts = view, grid, unfinished, attempts
+        self._view, self._grid, self._unfinished = view, grid, unfinished
         self.user = ""
         self.question: Question | None = None
         self._asked: Asked | None = None
         """The question with its outline, as it was drawn."""
-        self._checked: Checked | None = None
-        """What the last check found; ``None``: nothing was checked since the question was asked."""
+        self._last = LastCheck(attempts)
         self._hints = 0
-        self._first: Attempt | None = None
-        """The check that counts, where the last one corrects it."""
         self._has_answer = self._is_checked = self._is_shown = self._is_sure = False
         self._left_out: object = None
         """The answer of which was said that it leaves something empty."""
-        self._is_explained = False
-        """Whether the exercise was missed so often in a row that the step which decides is offered."""
         self._digest = ""
         self._history = AnswerHistory(grid, self)
         self._begun = monotonic()
@@ -167,22 +148,15 @@ class QuestionPresenter(QObject):
         if seed is None and self.question is not None and self.question.template is template:
             self._asking.cancel()  # It is shown: what was chosen since is not wanted any more.
         else:
-            self._asking.start(asking(template, self._seed(template, seed), is_afresh=seed is not None))
+            self._asking.start(asking(template, seed, self._unfinished.answers.answers))
 
     def open_at_once(self, template: Template, seed: int | None = None) -> None:
         """Ask a question as `open` does, and return when it is shown."""
         self._asking.cancel()
         try:
-            self._show(drawn(ask(template, self._seed(template, seed)), is_afresh=seed is not None))
+            self._show(asking(template, seed, self._unfinished.answers.answers)())
         except (ValueError, MemoryError) as error:
             self._refuse(error)
-
-    def _seed(self, template: Template, seed: int | None) -> int:
-        """Return the seed that is wanted, or that of the last question, or a new one."""
-        if seed is not None:
-            return seed
-        kept = self._unfinished.answers.answers.get(template.name)
-        return kept.seed if kept is not None and kept.version == template.version else new_seed()
 
     @Slot()
     def ask_variant(self) -> None:
@@ -191,7 +165,7 @@ class QuestionPresenter(QObject):
 
     def _ask_variant(self) -> None:
         if self.question is not None:
-            mistakes = () if self._checked is None else self._checked.judgement.mistakes
+            mistakes = () if self._last.checked is None else self._last.checked.judgement.mistakes
             seeds = [new_seed() for _ in range(TRY_LIMIT)]
             self._asking.start(asking_apart(self.question.template, mistakes, seeds))
 
@@ -216,11 +190,11 @@ class QuestionPresenter(QObject):
         is_other = kept is None or (kept.version, kept.seed) != (template.version, question.seed)
         if kept is None or is_other or (asked.is_afresh and kept.is_checked):
             kept = Unfinished(version=template.version, seed=question.seed)
-        self._checked, self._left_out, self._is_sure = None, None, False
+        self._last.begin(question)
+        self._left_out, self._is_sure = None, False
         self._has_answer = kept.given is not None
         self._hints = min(kept.hints, len(draft.hints))
         self._is_checked, self._is_shown = kept.is_checked, kept.is_shown
-        self._is_explained = False
         self._digest = "" if draft.scene is None else scene_digest(draft.scene)
         self._begun = monotonic()
         size = size_of(draft)
@@ -287,7 +261,7 @@ class QuestionPresenter(QObject):
         """Keep the answer at once; what was found of another one does not hold for it."""
         self._has_answer = True
         self.evidence.end_picture()
-        self._show_verdict()
+        self._last.show(self._view)
         self._draw_live()
         self._try()
         self._keep()
@@ -392,41 +366,15 @@ class QuestionPresenter(QObject):
     def _show_checked(self, checked: Checked) -> None:
         """Show marks, points and the mistake."""
         attempt = checked.attempt
-        is_corrected = attempt is not None and is_correction(self._attempts(), attempt)
-        self._first = self._counted(attempt) if attempt is not None and is_corrected else None
-        self._is_explained = (
-            attempt is not None and attempt.score < 1 and self._misses(attempt) >= MISSES_IN_A_ROW
-        )
-        self._checked, self._is_checked = checked, True
-        self._show_verdict()
+        self._last.take(checked)
+        self._is_checked = True
+        self._last.show(self._view)
         self._show_state()
         self._keep()
         if checked.trouble:
             self._page.refuse(checked.trouble)
         if attempt is not None:
             self.checked.emit(attempt)
-
-    def _counted(self, attempt: Attempt) -> Attempt:
-        """Return the earlier attempt at the same question that counts in the place of this one."""
-        question = (attempt.template, attempt.version, attempt.seed)
-        tries = first_tries(self._attempts())
-        return next(each for each in reversed(tries) if (each.template, each.version, each.seed) == question)
-
-    def _misses(self, attempt: Attempt) -> int:
-        """Return how often its exercise was missed in a row, this attempt among them."""
-        return misses_in_a_row(first_tries((*self._attempts(), attempt)))[attempt.template]
-
-    def _show_verdict(self) -> None:
-        """Show what the last check found; of an answer that was changed since, the points alone."""
-        if self._checked is None or self.question is None or self._view.answer is None:
-            return
-        is_stale = self._view.answer.given() != self._checked.given
-        are_shown = marks_are_shown(self.question, self._checked, is_corrected=self._first is not None)
-        self._view.answer.show_marks(self._checked.marks if are_shown and not is_stale else None)
-        feedback = feedback_of(
-            self.question, self._checked, first=self._first, is_explained=self._is_explained
-        )
-        self._view.show_feedback(feedback, is_stale=is_stale)
 
     # Help.
 
@@ -440,7 +388,9 @@ class QuestionPresenter(QObject):
 
     def _all_hints(self) -> tuple[str, ...]:
         assert self.question is not None
-        return hints_after(self.question.draft, None if self._checked is None else self._checked.response)
+        return hints_after(
+            self.question.draft, None if self._last.checked is None else self._last.checked.response
+        )
 
     def _show_state(self) -> None:
         """Show the hints so far, and what can be done next."""
@@ -449,10 +399,10 @@ class QuestionPresenter(QObject):
         self._view.show_hints(hints[: self._hints], len(hints))
         self.evidence.follow(
             self.question,
-            self._checked,
+            self._last.checked,
             is_asked=self.is_asked,
             is_shown=self._is_shown,
-            is_explained=self._is_explained,
+            is_explained=self._last.is_explained,
         )
         self.state_changed.emit()
 

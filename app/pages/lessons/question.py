@@ -25,7 +25,7 @@ from app.pages.exercises.answers import (
     size_of,
     trying,
 )
-from app.pages.exercises.evidence import not_checked_text, show_tried
+from app.pages.exercises.feedback import not_checked_text, show_tried
 from core.lanes.run import bounded
 from core.records.cells import Marks
 from lessons.attempts.record import DEFAULT_USER, Attempt, attempt_of, begin_anew, lesson_attempt, standings

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.files.user_folders import attempt_file
-from app.pages.exercises.evidence import CORRECTED, SHOWN
+from app.pages.exercises.feedback import CORRECTED, SHOWN
 from app.pages.exercises.page import ExercisesPage
 from app.session.document import open_document
 from app.session.session import Session

@@ -40,7 +40,7 @@ def test_an_answer_of_every_type_that_was_kept_opens(
         page.questions.check()
         page.questions.check()  # What is left empty is asked about first.
         page.settle()
-        checked = page.questions._checked
+        checked = page.questions._last.checked
         assert checked is not None, name
         assert question.draft.answer.text(checked.response) == text
         kinds.add(question.draft.answer.kind)

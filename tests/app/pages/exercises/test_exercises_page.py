@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 
 from app.files.user_folders import attempt_file
 from app.pages.exercises.answers import Checked, marks_of, outline_of
-from app.pages.exercises.evidence import CORRECTED, feedback_of
+from app.pages.exercises.feedback import CORRECTED, feedback_of
 from app.pages.exercises.page import ExercisesPage
 from app.window.main_window import MainWindow
 from core import render
@@ -102,8 +102,8 @@ def test_a_variant_after_a_miss_tells_two_mistakes_apart(page: Page, monkeypatch
     assert shown.question.seed == alike
     paint(shown, frozenset({(0, 0)}))
     check(shown)
-    checked = shown.questions._checked
-    shown.questions._checked = replace(checked, judgement=replace(checked.judgement, mistakes=pair))
+    checked = shown.questions._last.checked
+    shown.questions._last.checked = replace(checked, judgement=replace(checked.judgement, mistakes=pair))
     seeds = cycle((alike, apart))
     shown.questions.ask_variant()
     shown.settle()
