@@ -12,7 +12,7 @@ from core.explain.number_text import in_words, spoken, vector_text
 from core.explain.records import Asked, Formula, Value, Variable
 from core.explain.step_values import REMARKS, Row, StepValues, find_row, key_fields, row_key
 from core.records.listing import EditedListing, ShaderListing
-from core.records.words import counted, joined
+from core.records.words import capitalized, counted, joined
 from core.trace import Explanation, StageTrace
 from core.trace.stage_trace import KEPT_EXPLANATIONS
 
@@ -238,11 +238,10 @@ def row_sentence(trace: StageTrace, position: int) -> str:
     last = trace.explain(position)
     assert last is not None
     deciding = [e for e in last.earlier if (said := row_of(e.key)) is not None and said.decides]
-    *texts, text = (_sentence_of(trace, row, e) for e in (*deciding, last))
-    name, colon, rest = text.partition(": ")
-    if texts and colon and texts[-1].startswith(name):
-        text = rest[:1].upper() + rest[1:]
-    return " ".join([*texts, text])
+    first, *others = (_sentence_of(trace, row, e) for e in (*deciding, last))
+    place, colon, _ = first.partition(": ")
+    beginning = place + colon if colon else ""
+    return " ".join([first, *(capitalized(text.removeprefix(beginning)) for text in others)])
 
 
 def remarks(trace: StageTrace, first: int, end: int) -> list[str]:

@@ -90,13 +90,8 @@ def place(step: StepValues) -> Said:
 
 
 def _touched(step: StepValues) -> str:
-    count = step.whole("object_count")
-    touch = "touches" if count == 1 else "touch"
-    return (
-        f"{_held(step)} {touch} the cell of node {step.whole('node')}"
-        if count
-        else (f"no {step.nouns.one} touches the cell of node {step.whole('node')}")
-    )
+    touch = "touches" if step.whole("object_count") == 1 else "touch"
+    return f"Node {step.whole('node')}: {_held(step)} {touch} its cell"
 
 
 @explains("cull.octree-leaf.leaf")
@@ -106,7 +101,7 @@ def cell(step: StepValues) -> Said:
     why = f"and a leaf may hold {size}"
     if step.whole("object_count") > size:
         why = f"more than {size}, but it is {deep} deep, the limit"
-    return f"{text[0].upper()}{text[1:]}, {why}: it is a leaf."
+    return f"{text}, {why}: it is a leaf."
 
 
 @explains("cull.octree-node.full")
@@ -133,8 +128,8 @@ def parts(step: StepValues) -> Said:
     counts = [int(value) for value in step.vector("octant_counts")]
     listed = ", ".join(str(count) for count in counts)
     text = (
-        f"Node {step.whole('node')}: its octants are touched by {listed} of {_held(step)}. They list {sum(counts)}, "
-        f"as one is listed in every octant that it touches"
+        f"Node {step.whole('node')}: its octants are touched by {listed} of {_held(step)}, and list {sum(counts)}: "
+        f"each is listed in every octant that it touches"
     )
     empty = counts.count(0)
     return (

@@ -6,7 +6,7 @@ from core.explain.formulas import concludes, formula_of, named, upright
 from core.explain.number_text import spoken
 from core.explain.step_values import Said, StepValues, explains
 from core.explain.steps import VariableText, shows
-from core.records.words import counted, joined
+from core.records.words import capitalized, counted, joined
 
 
 @explains("depth.ray-loops.count")
@@ -24,12 +24,12 @@ def loops(step: StepValues) -> Said:
     if focus >= 0:
         whom = f"{step.named_primitive(focus)}, which alone is traced"
     ask = "asks" if rays == 1 else "ask"
-    text = f"{of_sample}{counted(rays, 'ray')}, one for each {place}, {ask} {whom}: {counted(asked, 'test')}"
+    text = f"{of_sample}in all {counted(rays, 'ray')}, one for each {place}, {ask} {whom}: {counted(asked, 'test')}"
     text += f", of which {hits:,} {'is a hit' if hits == 1 else 'are hits'}"
     if asked > hits and not step.flag("lists_misses"):
         text += "; only hits have rows"
-    text = f"{text[:1].upper()}{text[1:]}. Each {place} is accessed once, each {step.nouns.one} {counted(rays, 'time')}"
-    return f"{text}.", formula_of(
+    text += f"; each {place} is accessed once, each {step.nouns.one} {counted(rays, 'time')}."
+    return capitalized(text), formula_of(
         named(upright("tests"), asked).equals(
             named(upright("rays"), rays) @ named(upright(step.nouns.many), primitives)
         )
