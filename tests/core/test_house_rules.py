@@ -3,8 +3,6 @@
 import ast
 import inspect
 import pkgutil
-import subprocess
-import sys
 from dataclasses import fields, is_dataclass
 from importlib import import_module
 from pathlib import Path
@@ -50,20 +48,6 @@ def public_functions(name: str) -> list:
 
 
 FUNCTIONS = [function for name in MODULES for function in public_functions(name)]
-
-
-def test_core_needs_numpy_only() -> None:
-    # In an interpreter of its own, with every module of the core imported.
-    program = (
-        "import sys, importlib\n"
-        f"for name in ['core', *{MODULES!r}]: importlib.import_module(name)\n"
-        "strangers = {name.split('.')[0] for name in sys.modules} & "
-        "{'PySide6', 'shiboken6', 'pyqtgraph', 'PIL', 'trimesh', 'pydantic', 'ziamath', 'moderngl', 'scipy', "
-        "'app', 'widgets', 'lessons'}\n"
-        "print(sorted(strangers))\n"
-    )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=FOLDER.parent)
-    assert done.stdout.strip() == "[]", done.stdout + done.stderr
 
 
 def test_files_are_of_readable_size() -> None:

@@ -17,6 +17,7 @@ def test_a_case_is_the_same_again_by_its_number() -> None:
     assert len({str(case) for case in cases}) > 40
 
 
+@pytest.mark.slow
 def test_what_a_case_does_wrong_is_noticed(tmp_path: Path) -> None:
     folder = tmp_path / "files"
     folder.mkdir()

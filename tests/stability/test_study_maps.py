@@ -1,5 +1,7 @@
 """Maps of studies: error and time of every method at all values of a dial."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -12,14 +14,15 @@ ANGLES = study_experiment(study_family("coverage"), ("angle",), "slivers")
 
 
 def test_speed_and_accuracy_of_number_formats_over_the_angle_of_slivers() -> None:
-    atlas = stress(ANGLES, with_times=True)
+    (angle,) = ANGLES.info.axes
+    assert angle.values == (0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8)
+    atlas = stress(ANGLES, axes=(replace(angle, values=(0.05, 0.25, 4)),), with_times=True)
     maps = {each.method: each for each in atlas.maps}
-    assert atlas.experiment.axes[0].values == (0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8)
-    assert all(each.seconds.shape == (1, 8) and (each.seconds > 0).all() for each in atlas.maps)
-    assert maps["coverage=exact"].count(Outcome.RIGHT) == 8
+    assert all(each.seconds.shape == (1, 3) and (each.seconds > 0).all() for each in atlas.maps)
+    assert maps["coverage=exact"].count(Outcome.RIGHT) == 3
     snapped = maps["coverage=snapped"]
     assert snapped.count(Outcome.WRONG_PICTURE) > 0
-    assert (snapped.severity[0, :3] > 0).all()
+    assert (snapped.severity[0, :2] > 0).all()
     assert snapped.remark(0, 0) == f"misclassified {snapped.severity[0, 0]:.4g}"
 
 

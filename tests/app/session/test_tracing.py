@@ -6,16 +6,25 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
+from app.session import document as document_module
 from app.session.document import TEACHING_LIMIT, TRACED_TOGETHER, Document, open_document
 from app.session.session import Session
 from app.window.main_window import MainWindow
 from core import ClipScene, Settings
 from lessons.scene_edits import move_corner
 from lessons.scenes import make_scene
+from lessons.shapes import sphere
 
 pytestmark = pytest.mark.shared_window
 
-SPHERE = "sphere"
+BALL = replace(make_scene("sphere"), meshes=(sphere(columns=24, rows=12),))
+
+
+@pytest.fixture(autouse=True)
+def slow_machine(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let triangles be estimated to take as long as five times as many."""
+    for name in ("TESTS_PER_SECOND", "TRIANGLES_PER_SECOND"):
+        monkeypatch.setattr(document_module, name, getattr(document_module, name) / 5)
 
 
 def all_by_force(document: Document) -> Document:
@@ -25,7 +34,7 @@ def all_by_force(document: Document) -> Document:
 
 
 def test_a_long_trace_is_taken_over_when_it_is_done(qtbot: QtBot) -> None:
-    session = Session(open_document(make_scene(SPHERE), "Sphere"))
+    session = Session(open_document(BALL, "Sphere"))
     before = session.document
     slow = replace(before, settings=Settings(fill="brute-force"))
     session.edit(slow)
@@ -38,7 +47,10 @@ def test_a_long_trace_is_taken_over_when_it_is_done(qtbot: QtBot) -> None:
     session.tracing.shut_down()
 
 
-def test_all_triangles_that_are_traced_together_are_traced_at_once(qapp: object) -> None:
+def test_all_triangles_that_are_traced_together_are_traced_at_once(
+    qapp: object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.undo()
     corners = np.random.default_rng(1).uniform(-1, 1, (TRACED_TOGETHER, 3, 4))
     corners[..., 3] += 2
     scene = ClipScene(corners, size=TEACHING_LIMIT)
@@ -51,7 +63,7 @@ def test_all_triangles_that_are_traced_together_are_traced_at_once(qapp: object)
 
 
 def test_a_quick_edit_takes_the_place_of_a_long_one(qtbot: QtBot) -> None:
-    session = Session(open_document(make_scene(SPHERE), "Sphere"))
+    session = Session(open_document(BALL, "Sphere"))
     session.edit(replace(session.document, settings=Settings(fill="brute-force")))
     quick = replace(session.document, settings=Settings(fill="bounding-box"))
     session.edit(quick)
@@ -62,7 +74,7 @@ def test_a_quick_edit_takes_the_place_of_a_long_one(qtbot: QtBot) -> None:
 
 
 def test_of_many_that_wait_the_last_is_kept(qtbot: QtBot) -> None:
-    session = Session(open_document(make_scene(SPHERE), "Sphere"))
+    session = Session(open_document(BALL, "Sphere"))
     slow = [replace(session.document, settings=Settings(fill="brute-force", block_size=n)) for n in (1, 2, 4)]
     for document in slow:
         session.edit(document, "drag")
@@ -76,7 +88,7 @@ def wait_for(session: Session, qtbot: QtBot) -> None:
 
 def test_what_of_a_drag_is_traced_after_its_end_is_undone_with_it(window: MainWindow, qtbot: QtBot) -> None:
     session, grid = window.session, window.page.grid
-    slow = replace(open_document(make_scene(SPHERE), "Sphere"), settings=Settings(fill="brute-force"))
+    slow = replace(open_document(BALL, "Sphere"), settings=Settings(fill="brute-force"))
     session.open(slow)
     for x in (10.0, 20.0):
         grid.vertex_dragged.emit(0, x, 12.0)
@@ -92,7 +104,7 @@ def test_what_of_a_drag_is_traced_after_its_end_is_undone_with_it(window: MainWi
 
 
 def test_an_edit_that_is_being_traced_is_undone_alone(qtbot: QtBot) -> None:
-    session = Session(open_document(make_scene(SPHERE), "Sphere"))
+    session = Session(open_document(BALL, "Sphere"))
     assert not session.can_undo
     with qtbot.waitSignal(session.tracing.busy_changed):
         session.set_setting("fill", "brute-force")
@@ -110,7 +122,7 @@ def test_an_edit_that_is_being_traced_is_undone_alone(qtbot: QtBot) -> None:
 
 
 def test_undo_takes_a_drag_back_that_goes_on_in_the_background(qtbot: QtBot) -> None:
-    session = Session(open_document(make_scene(SPHERE), "Sphere"))
+    session = Session(open_document(BALL, "Sphere"))
     before = session.document
     session.edit(replace(before, settings=Settings(fill="blocks")), "drag 0")
     session.edit(replace(before, settings=Settings(fill="brute-force")), "drag 0")
@@ -122,7 +134,7 @@ def test_undo_takes_a_drag_back_that_goes_on_in_the_background(qtbot: QtBot) -> 
 
 def test_an_edit_starts_from_the_one_that_is_still_being_traced(window: MainWindow, qtbot: QtBot) -> None:
     session = window.session
-    session.open(replace(open_document(make_scene(SPHERE), "Sphere"), settings=Settings(fill="brute-force")))
+    session.open(replace(open_document(BALL, "Sphere"), settings=Settings(fill="brute-force")))
     document = session.document
     assert document.triangle is not None
     moved = move_corner(document.scene, document.triangle, 0, (10.0, 12.0), document.traced_scene.size)
@@ -147,7 +159,7 @@ def test_too_long_a_run_is_refused_with_what_to_do(qtbot: QtBot) -> None:
 
 
 def test_the_window_shows_the_work_and_cancels_it(window: MainWindow, qtbot: QtBot) -> None:
-    window.session.open(open_document(make_scene("knot"), "Knot"))
+    window.session.open(open_document(make_scene("sphere"), "Sphere"))
     before = window.session.document
     settings = Settings(fill="brute-force")
     whole = replace(
@@ -155,7 +167,7 @@ def test_the_window_shows_the_work_and_cancels_it(window: MainWindow, qtbot: QtB
     )
     window.edits.edit(whole)
     qtbot.waitUntil(window.messages.isVisible)
-    assert window.messages.text.text() == "Tracing Knot"
+    assert window.messages.text.text() == "Tracing Sphere"
     window.messages.cancel_button.click()
     assert not window.session.tracing.is_busy
     assert window.session.document is before
@@ -171,7 +183,7 @@ def test_a_refused_run_is_told_in_the_window(window: MainWindow) -> None:
 
 
 def test_undoing_to_a_long_trace_waits_for_it(qtbot: QtBot) -> None:
-    slow = replace(open_document(make_scene(SPHERE), "Sphere"), settings=Settings(fill="brute-force"))
+    slow = replace(open_document(BALL, "Sphere"), settings=Settings(fill="brute-force"))
     session = Session(slow)
     quick = replace(slow, settings=Settings())
     session.edit(quick)

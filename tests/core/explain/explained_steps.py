@@ -29,7 +29,7 @@ WINDOW = (4, 3)
 """Columns and rows that are traced of a built-in scene."""
 ROWS = 2
 """Rows of a kind that are explained of a trace, spread over it; with --all twice as many."""
-ALIKE = 8
+ALIKE = 4
 """Steps of one key that are explained of a group of traces, any of them; with --all every one."""
 
 RARE_CLIP = {

@@ -15,10 +15,12 @@ from core.framebuffer.display import encode_linear, to_display
 from core.methods import table
 from lessons.scenes import make_scene
 from tests.core.strategies import ANY_TRIANGLES
-from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of
+from tests.core.trace.trace_cases import EACH_METHOD, SCENES, name_of, settings_of
 from tests.covering import in_turn
 
-SAMPLED = [choice for choice in (*CHOICES, *MIXES) if "antialiasing" not in choice]
+SAMPLED = [
+    {family: name for family, name in each.items() if family != "antialiasing"} for each in EACH_METHOD
+]
 
 
 def is_like_the_plain_one(scene, settings, encoding="srgb") -> bool:

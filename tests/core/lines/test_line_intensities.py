@@ -16,7 +16,7 @@ from core.resolved import resolve
 from core.trace.source import TraceSource
 from lessons.scenes import assembled, make_scene
 from tests.core.strategies import clip_of_window
-from tests.covering import every_pair, is_everything
+from tests.covering import in_turns, is_everything
 
 SMOOTH = [line for line in table.names("line") if has_intensities(line)]
 SIZE = (16, 12)
@@ -156,7 +156,7 @@ def test_segments_run_to_the_right_and_keep_their_ends():
         )
 
 
-@every_pair(line=SMOOTH, depth=table.names("depth"), blend=table.names("blend"))
+@in_turns(line=SMOOTH, depth=table.names("depth"), blend=table.names("blend"))
 def test_rows_give_the_picture_with_every_depth_and_blend_method(line, depth, blend):
     scene = make_scene("cube")
     settings = wireframe(line, depth=depth, blend=blend)

@@ -7,7 +7,7 @@ from core import Settings, render
 from core.pixel_history import why
 from core.trace.source import TraceSource
 from tests.core.trace.trace_cases import SCENES, name_of
-from tests.covering import in_turn
+from tests.covering import in_turn, is_everything
 
 CHOICES = [
     {"antialiasing": "msaa-4"},
@@ -28,7 +28,7 @@ def test_the_history_of_a_sample_ends_in_the_picture(name, choice):
     samples, source = render(scene, settings).samples, TraceSource(scene, settings)
     generator = np.random.default_rng(2)
     width, height = scene.size
-    for _ in range(12):
+    for _ in range(12 if is_everything() else 4):
         column, row = int(generator.integers(width)), int(generator.integers(height))
         for sample in range(len(samples.position)):
             history = why(source, column, row, sample=sample)

@@ -23,7 +23,7 @@ from lessons.small_scenes import segment_scene
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 from tests.core.trace.executed_rows import Ran, lines_that_run
 from tests.core.trace.trace_cases import SCENES, settings_of
-from tests.covering import every_pair
+from tests.covering import in_turns
 
 LINES = list(table.names("line"))
 SEVERAL = ("rectangle", "wu", "gupta-sproull")
@@ -152,7 +152,7 @@ def test_every_assignment_is_a_step_and_every_variable_holds_what_the_listing_ho
     assert {name for _, name in assigned} >= ({"L"} if line == "rectangle" else {"x"})
 
 
-@every_pair(
+@in_turns(
     pixel_center=table.names("pixel_center"),
     line=LINES,
     name=["clip", "lit", "single-triangle", "near-plane"],

@@ -25,7 +25,7 @@ def small_region(scene: ClipScene | Scene) -> Region:
     """Return a window around the middle of the picture, on no block's border."""
     width, height = scene.size
     column, row = max(width // 2 - 5, 0), max(height // 2 - 3, 0)
-    return column, row, min(11, width - column), min(7, height - row)
+    return column, row, min(7, width - column), min(5, height - row)
 
 
 def lit_scene(projection: str = "perspective") -> Scene:
@@ -181,9 +181,9 @@ _WIREFRAME: Choice = {"polygon_mode": "wireframe"}
 EACH_METHOD: list[Choice] = (
     [*CHOICES, *MIXES]
     if is_everything()
-    else [{}, _WIREFRAME, *_together([each for each in CHOICES[1:] if each != _WIREFRAME], 20), *MIXES]
+    else [{}, _WIREFRAME, *_together([each for each in CHOICES[1:] if each != _WIREFRAME], 20), *MIXES[::4]]
 )
-"""Every method of triangles, and choices that meet each other: two or three at a time, with --all one by one too."""
+"""Every method of triangles, two or three at a time, and a few mixes; with --all one by one, and all mixes."""
 
 
 def _met(families: set[str], scenes: Sequence[str], **numbers: tuple[int, ...]) -> list[tuple[str, Choice]]:

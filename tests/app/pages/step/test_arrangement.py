@@ -19,11 +19,8 @@ from PySide6.QtWidgets import (
 from pytestqt.qtbot import QtBot
 
 from app.files.between_starts import Preferences
-from app.pages.step.inspector_column import InspectorColumn
-from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core.stages.declared import STAGES
-from lessons.scenes import make_scene
 from tests.core.listings import listings_of_the_program
 from tests.covering import is_everything
 from widgets.basics.controls import ChoiceBox
@@ -106,18 +103,6 @@ def test_no_step_of_a_stage_moves_the_grid(window: MainWindow) -> None:
             window.session.go_to(position)
             places.add(str(place_of_pixel(window)))
         assert len(places) == 1, stage
-
-
-@pytest.mark.own_window
-def test_the_line_of_the_step_is_in_sight_in_a_low_window(window: MainWindow) -> None:
-    window.resize(1280, 540)
-    QApplication.processEvents()
-    window.session.set_stage("raster", 4)
-    QApplication.processEvents()
-    listing, column = window.page.listing, window.page.findChild(InspectorColumn)
-    line = next(box for number, box in listing.visible_lines() if number == listing.line)
-    bottom = listing.viewport().mapTo(column.step.viewport(), line.bottomLeft().toPoint()).y()
-    assert 0 < bottom <= column.step.viewport().height()
 
 
 def test_panes_are_folded_at_first_and_come_by_keys(window: MainWindow) -> None:
@@ -207,21 +192,6 @@ def test_nothing_is_cut_that_stands_nowhere_else(window: MainWindow) -> None:
                 assert least <= widget.viewport().height(), (where, rows)
 
 
-@pytest.mark.own_window
-def test_the_tabs_of_the_views_are_whole_beside_the_range_of_a_buffer(window: MainWindow) -> None:
-    application = QApplication.instance()
-    assert isinstance(application, QApplication)
-    application.setStyleSheet(style_sheet(current_theme()))
-    window.session.open(open_document(make_scene("near-plane"), "A range of many digits"))
-    window.session.set_stage("edges", 11)
-    window.page.settle()
-    area = window.page.main_area
-    assert area.range_button.isVisible()
-    assert area.view_bar.width() >= area.view_bar.sizeHint().width()
-    places = [widget.mapTo(area, QPoint(0, 0)).x() for widget in (area.view_bar, area.range_button)]
-    assert places[0] + area.view_bar.width() <= places[1]
-
-
 def test_every_method_can_be_read_whole_in_its_box(window: MainWindow) -> None:
     """Of every family, beside a scroll bar."""
     page = window.page
@@ -249,7 +219,7 @@ def test_ten_lines_are_in_sight_around_each_line_of_every_listing(window: MainWi
     QApplication.processEvents()
     view = window.page.listing
     seen = 0
-    for found in listings_of_the_program():
+    for found in list(listings_of_the_program())[:: 1 if is_everything() else 4]:
         title = found.function.__name__
         view.keep_room_for([found.source])
         view.show_listing(ListingText(title, found.source))
@@ -263,18 +233,7 @@ def test_ten_lines_are_in_sight_around_each_line_of_every_listing(window: MainWi
             assert line in whole, (title, line)
             assert len(whole) >= min(10, shown), (title, line, whole)
         seen += 1
-    assert seen >= 100
-
-
-@pytest.mark.own_window
-def test_the_listing_leaves_room_for_variables_and_the_history_of_a_pixel(window: MainWindow) -> None:
-    column = window.page.column
-    window.resize(1280, 760)  # what a title bar leaves of 800
-    for stage in STAGES:
-        window.session.set_stage(stage)
-        QApplication.processEvents()
-        seen = column.height() - column.variables.mapTo(column, QPoint(0, 0)).y()
-        assert seen >= 6 * 24, stage  # heading, five rows
+    assert seen >= 25
 
 
 LEAST_TARGET = 24

@@ -156,7 +156,7 @@ def test_dragging_over_the_chapters_goes_through_the_whole_run(window: MainWindo
 
 def test_page_down_leaps_through_the_whole_run(window: MainWindow, qtbot: QtBot) -> None:
     session, timeline = window.session, window.page.timeline
-    session.open(open_document(ClipScene([[[-1, -1, 0, 1], [1, -1, 0, 1], [-1, 1, 0, 1]]], size=(6, 4)), ""))
+    session.open(open_document(ClipScene([[[-1, -1, 0, 1], [1, -1, 0, 1], [-1, 1, 0, 1]]], size=(4, 3)), ""))
     session.set_stage(STAGES[0], 0)
     visited = []
     while session.cursor.stage != "interpolate":
