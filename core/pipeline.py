@@ -56,7 +56,7 @@ from core.stages.fragments import (
 )
 from core.stages.hidden_surfaces import Visible, decide_fragments
 from core.stages.needs import check_edits
-from core.stages.vertices import Geometry, process_geometry
+from core.stages.vertices import Before, Geometry, process_geometry
 
 SAMPLE_BAND = 1 << 21
 """Samples that are drawn in one go: the numbers of more would take too much memory."""
@@ -128,7 +128,9 @@ def draw_triangles(
     return render(ClipScene(np.asarray(clip), values, (width, height), texture), settings)
 
 
-def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None) -> Frame:
+def draw(
+    scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | Before | None = None
+) -> Frame:
     """Draw the ``chosen`` (T,) triangles, or all; the buffers are those of the raster's region."""
     resolved = resolve(settings).imported
     sampling, settings = resolved.sampling, resolved.settings
@@ -144,7 +146,7 @@ def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers |
 
 
 def draw_centers(
-    scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None
+    scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | Before | None = None
 ) -> Frame:
     """Draw the ``chosen`` (T,) triangles, or all, with one sample a pixel: its centre."""
     counts = {stage: StageCount() for stage in STAGES}
@@ -259,7 +261,7 @@ def draw_filtered(
 
 
 def draw_supersampled(
-    scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None, side: int
+    scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | Before | None, side: int
 ) -> Frame:
     """Draw the ``chosen`` (T,) triangles, or all, at ``side`` times the size, every sample shaded, and resolve them.
 
@@ -278,7 +280,7 @@ def draw_supersampled(
 
 
 def draw_multisampled(
-    scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None
+    scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | Before | None = None
 ) -> Frame:
     """Draw the ``chosen`` (T,) triangles, or all: depth at four samples a pixel, colour once for a triangle in a pixel.
 
@@ -333,7 +335,9 @@ def draw_multisampled(
 # Areas instead of samples.
 
 
-def draw_areas(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None) -> Frame:
+def draw_areas(
+    scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | Before | None = None
+) -> Frame:
     """Draw the ``chosen`` (T,) triangles, or all, with exact areas.
 
     The buffers beside the colour, and all of a wireframe or polygon, are those of the pixels' centres.

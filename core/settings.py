@@ -178,6 +178,7 @@ class Settings:
         "core.visibility.painters",
         "core.visibility.ray_casting",
         "core.visibility.scan_line",
+        "core.visibility.bsp",
         classical=("z-buffer", "painters", "ray-casting"),
     )
     depth: str = choice(

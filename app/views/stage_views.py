@@ -53,7 +53,8 @@ def traced_counts(trace: Trace) -> dict[str, tuple[int, int]]:
     triangle in focus, and does it with every fragment, in pipeline order.
     """
     source, geometry = trace.source, trace.source.geometry
-    given, kept, pieces = len(geometry.assembled), len(geometry.kept), len(geometry.primitives)
+    given, pieces = len(geometry.assembled), len(geometry.primitives)
+    kept = int(np.count_nonzero(geometry.culled.kept))
     counts = source.picture.statistics
     found = {stage: (count.incoming, count.outgoing) for stage, count in counts.items()}
     found |= {"transform": (given, given), "cull": (given, kept)}

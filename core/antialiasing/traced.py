@@ -21,7 +21,7 @@ from core.records.steps import Steps, ends_of
 from core.resolved import resolve
 from core.settings import Settings
 from core.stages.declared import STAGES
-from core.stages.vertices import process_geometry
+from core.stages.vertices import Before, process_geometry
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
 
@@ -140,14 +140,14 @@ def _listings(kind: str) -> dict[str, Listing]:
     return found
 
 
-def last_drawn(source: TraceSource) -> Integers | None:
-    """Return the triangles (T,) that the buffers show after the last row; ``None``: all."""
+def last_drawn(source: TraceSource) -> Before | None:
+    """Return what the buffers show after the last row; ``None``: all triangles."""
     if source.triangle is None:
         return None
-    earlier = np.empty(0, np.int64)
+    first = 0
     if source.before == "earlier":
-        earlier = source.order[: int(np.flatnonzero(source.order == source.triangle)[0])]
-    return np.sort(np.append(earlier, source.triangle))
+        first = int(np.flatnonzero(source.order == source.triangle)[0])
+    return Before(first, source.triangle)
 
 
 def _samples(source: TraceSource) -> Parts:

@@ -289,7 +289,7 @@ def _are_of_vertices(context: DrawContext) -> bool:
     """Return whether the values belong to the sides of the scene's vertices, all fronts first, then all backs."""
     geometry = context.geometry
     values, corner = geometry.primitives.values, geometry.vertices.corner_rows
-    if geometry.primitives is not geometry.kept or len(values.rows) % len(geometry.vertices.clip):
+    if geometry.has_pieces or len(values.rows) % len(geometry.vertices.clip):
         return False
     vertex = values.index % len(geometry.vertices.clip)
     return np.array_equal(vertex, corner.take(geometry.primitives.triangle, axis=1))

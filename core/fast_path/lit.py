@@ -97,7 +97,7 @@ def even_mesh(context: DrawContext) -> LitMesh | None:
     if light is None or not facts.is_opaque:
         return None
     # Of clipped triangles only those of this part of the picture are known, and others may have other colours.
-    if facts.color is None and (mesh.texture is not None or context.geometry.clipped is not None):
+    if facts.color is None and (mesh.texture is not None or context.geometry.has_pieces):
         return None
     return LitMesh(mesh, light, facts, facts.color)
 
@@ -107,7 +107,7 @@ def have_few_unlike(context: DrawContext, meshes: Sequence[VertexFacts]) -> bool
 
     Of whole meshes, so that what holds for the picture holds for all bands of it; pieces of triangles are no mesh.
     """
-    if context.geometry.clipped is not None:
+    if context.geometry.has_pieces:
         return True
     unlike = sum(mesh.unlike_count for mesh in meshes)
     return unlike <= MOST_UNLIKE * sum(mesh.triangle_count for mesh in meshes)
@@ -121,7 +121,7 @@ def is_mostly_in_front(geometry: Geometry) -> bool:
     has_place = geometry.window.is_projected
     if has_place.all():
         return True
-    if geometry.clipped is not None:
+    if geometry.has_pieces:
         return bool(geometry.is_projected.all())
     corner = geometry.assembled.corner[:, geometry.culled.kept]
     in_front = np.count_nonzero(has_place.take(corner).all(axis=0))
@@ -345,7 +345,7 @@ def lit_colors(context: DrawContext) -> LitColors | None:
     if not isinstance(scene, Scene) or context.settings.shading != "phong":
         return None
     is_several = len(scene.meshes) > 1
-    if is_several and (len(scene.meshes) > MOST or context.geometry.clipped is not None):
+    if is_several and (len(scene.meshes) > MOST or context.geometry.has_pieces):
         return None
     # What is interpolated is found once for all of them.
     if not len(primitives.values.rows) or not is_mostly_in_front(context.geometry):

@@ -175,7 +175,7 @@ def vertex_facts(geometry: Geometry, mesh_number: int) -> VertexFacts:
         values = VertexValues(of_corners.rows, of_corners.layout)
         # Another thread may keep others the next moment.
         _last[:] = [values]
-    if geometry.clipped is not None:
+    if geometry.has_pieces:
         return VertexFacts(values, of_corners.index)
     if mesh_number not in values.of_mesh:
         assembled = geometry.assembled

@@ -288,7 +288,7 @@ def normal_planes(
     normal = facts.values.normals_seen_by(camera)
     corners = [normal.take(index, axis=1) for index in context.geometry.primitives.values.index]
     is_unlike = np.zeros(len(places.is_doubtful), bool)
-    if context.geometry.clipped is not None or facts.unlike_count:
+    if context.geometry.has_pieces or facts.unlike_count:
         is_unlike = are_unlike(corners)
         for corner in corners:
             corner[:, is_unlike] = FORWARD

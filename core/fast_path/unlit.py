@@ -41,7 +41,7 @@ def palette(context: DrawContext) -> Floats | None:
     if context.has_texture or (isinstance(scene, Scene) and lit_by(context.settings.shading) == "fragments"):
         return None
     values = geometry.primitives.values
-    is_known = isinstance(scene, ClipScene) and geometry.clipped is None and _is_flat(scene)
+    is_known = isinstance(scene, ClipScene) and not geometry.has_pieces and _is_flat(scene)
     if not is_known and not all(_corners_agree(values, part) for part in (slice(FEW), slice(None))):
         return None
     given = values.rows.take(values.index[0], axis=0)

@@ -82,15 +82,15 @@ class LineFragments(Fragments):
         return LineFragments(primitive, column, row, self.segment.take(index), intensity)
 
 
-def trace_sides(shares: Floats, triangle: Integers) -> tuple[Flags, Integers]:
+def trace_sides(shares: Floats, fan: Integers) -> tuple[Flags, Integers]:
     """Find the sides of fan pieces that are parts of their triangle's edges.
 
     Parameters
     ----------
     shares : (P, 3, 3) float64
         Shares of the triangle's three corners in every corner of the pieces, as clipping made them.
-    triangle : (P,) int64
-        Pieces of one triangle stand together.
+    fan : (P,) int64
+        What each is cut from as a part of one fan; pieces of one fan stand together.
 
     Returns
     -------
@@ -102,15 +102,15 @@ def trace_sides(shares: Floats, triangle: Integers) -> tuple[Flags, Integers]:
     """
     lies_on = (shares[:, SIDE_STARTS] == 0) & (shares[:, SIDE_ENDS] == 0)
     is_drawn = lies_on.any(axis=2)
-    is_drawn[:, 0] &= np.diff(triangle, prepend=-1) != 0
-    is_drawn[:, 2] &= np.diff(triangle, append=-1) != 0
+    is_drawn[:, 0] &= np.diff(fan, prepend=-1) != 0
+    is_drawn[:, 2] &= np.diff(fan, append=-1) != 0
     return is_drawn, lies_on.argmax(axis=2)
 
 
 def set_up_outlines(
     primitives: Primitives,
     corners: CornerPositions,
-    shares: Floats | None,
+    sides: tuple[Floats, Integers] | None,
     size: tuple[int, int],
     draws_last: Flags | None = None,
 ) -> Outlines:
@@ -118,8 +118,8 @@ def set_up_outlines(
 
     Parameters
     ----------
-    shares : (P, 3, 3) float64, optional
-        See `trace_sides`; ``None``: nothing was clipped.
+    sides : ((P, 3, 3) float64, (P,) int64), optional
+        Shares and fans, see `trace_sides`; ``None``: nothing was clipped or cut.
     size : (width, height)
     draws_last : (P,) bool, optional
         The primitives are segments or points, each one line from its first corner to its second, and where this holds
@@ -130,10 +130,9 @@ def set_up_outlines(
     Left out are segments outside the neighbourhood of the window and those that end in the eye (w = 0).
     """
     count = len(primitives)
-    if shares is None:
-        shares = np.broadcast_to(np.eye(3), (count, 3, 3))
+    shares, fan = (np.broadcast_to(np.eye(3), (count, 3, 3)), np.arange(count)) if sides is None else sides
     if draws_last is None:
-        is_drawn, edge = trace_sides(shares, primitives.triangle)
+        is_drawn, edge = trace_sides(shares, fan)
     else:
         is_drawn, edge = np.broadcast_to(SIDE_STARTS == 0, (count, 3)), np.full((count, 3), ONLY_EDGE)
     primitive, side = np.nonzero(is_drawn)

@@ -187,11 +187,27 @@ def own_corners(number: Integers, count: int = 3) -> Integers:
 
 
 @dataclass(frozen=True, eq=False)
+class Pieces:
+    """Q pieces of triangles, whole ones among them, cut before anything is divided by w."""
+
+    clip: Floats
+    """(Q, 3, 4) float64, clip space."""
+    shares: Floats
+    """(Q, 3, 3) float64, shares of the triangle's three corners in every corner of the piece."""
+    number: Integers
+    """(Q,) int64, counts the pieces of one triangle in the order in which they were cut; 0: the whole triangle."""
+
+    def take(self, index: Integers) -> "Pieces":
+        """Return the pieces of ``index``, in that order."""
+        return Pieces(*(values.take(index, axis=0) for values in vars(self).values()))
+
+
+@dataclass(frozen=True, eq=False)
 class DrawingOrder:
-    """In which order primitives are drawn, and whether the depth test decides."""
+    """In which order primitives are drawn, whether they are cut before, and whether the depth test decides."""
 
     order: Integers
-    """(P,) int64, the primitives from the first drawn to the last."""
+    """(Q,) int64, the primitives from the first drawn to the last; one that is cut stands there once for each piece."""
     uses_depth_test: bool
     casts_rays: bool = False
     """Whether fragments are compared exactly, not by what the depth buffer holds."""
@@ -199,6 +215,8 @@ class DrawingOrder:
     """How the stage depth lists its rows, as `PIXEL_BY_PIXEL`; ``None``: triangle by triangle."""
     asks_all: bool = False
     """Whether the ray of a pixel asks all primitives, so that those that it misses have rows, too."""
+    pieces: Pieces | None = None
+    """What is drawn in this order; ``None``: the primitives themselves."""
 
     @property
     def is_as_given(self) -> bool:

@@ -27,7 +27,7 @@ from core.depth.fixed_depth import FixedPlanes, set_up_fixed_planes
 from core.interpolation.interpolation import Planes, set_up_planes, value_plane
 from core.records.arrays import Flags, Floats, Integers, cached_property
 from core.records.frame import StageCount
-from core.records.primitives import IndexedPrimitives, Primitives, Rings
+from core.records.primitives import IndexedPrimitives, Pieces, Primitives, Rings
 from core.resolved import resolve
 from core.settings import Settings
 from core.transform.matrices import reversed_clip_depth
@@ -53,7 +53,9 @@ class Geometry:
     """All triangles of the scene."""
     culled: CullVerdicts
     kept: IndexedPrimitives
-    """Those that were not culled, in drawing order."""
+    """Those that were not culled, in drawing order; where the order cuts triangles, their pieces."""
+    kept_pieces: Pieces | None
+    """What ``kept`` are, one each, where the order cuts triangles; ``None``: they are whole."""
     clipped: Clipped | None
     """``None``: nothing was clipped against."""
     clipping_inserted: str
@@ -219,7 +221,7 @@ class Geometry:
             outlines = set_up_outlines(
                 self.primitives.gathered(),
                 self.corners,
-                self._corner_shares() if self.draws_last is None else None,
+                self._cut_sides() if self.draws_last is None else None,
                 self.vertices.size,
                 self.draws_last,
             )
@@ -245,6 +247,19 @@ class Geometry:
         method, center = self.settings.polygon_clipping, resolve(self.settings).center
         return clip_polygons(self.vertices, self.primitives.triangle, method, center)
 
+    @cached_property
+    def kept_of_primitive(self) -> Integers:
+        """(P,) int64, which of ``kept`` each primitive is, or was clipped from."""
+        count = np.ones(len(self.kept), np.int64)
+        if self.clipped is not None:
+            count[self.clipped.clipped] = np.maximum(self.clipped.counts[-1] - 2, 0)
+        return np.repeat(np.arange(len(self.kept)), count)
+
+    @property
+    def has_pieces(self) -> bool:
+        """Whether primitives may be pieces of triangles, which clipping or the drawing order has cut."""
+        return self.clipped is not None or self.kept_pieces is not None
+
     @property
     def is_cut_to_pixels(self) -> bool:
         """Whether exact areas apply: triangles are filled. Outlines and polygons are drawn at pixels' centres."""
@@ -256,15 +271,21 @@ class Geometry:
         draws_last = self.vertices.draws_last
         return None if draws_last is None else draws_last.take(self.primitives.triangle)
 
-    def _corner_shares(self) -> Floats | None:
-        """Return the shares (P, 3, 3) of a triangle's corners in those of its pieces; ``None``: nothing is cut."""
-        if self.clipped is None or not len(self.clipped.clipped):
+    def _cut_sides(self) -> tuple[Floats, Integers] | None:
+        """Return what `core.lines.wireframe.trace_sides` finds the sides of triangles by; ``None``: nothing is cut."""
+        kept, fan = self.kept, np.arange(len(self.kept))
+        is_clipped = self.clipped is not None and len(self.clipped.clipped) > 0
+        if not is_clipped and self.kept_pieces is None:
             return None
-        kept, shares = self.kept, np.tile(np.eye(3), (len(self.kept), 1, 1))
-        whole = Primitives(kept.clip, shares, kept.triangle, kept.mesh, {})
+        whole_shares = np.tile(np.eye(3), (len(kept), 1, 1))
+        shares = whole_shares if self.kept_pieces is None else self.kept_pieces.shares
+        if not is_clipped:
+            return shares, fan
+        whole = Primitives(kept.clip, shares, fan, kept.mesh, {})
         distances = clipping_distances(kept, self.clipping_inserted)
         clipping = DEPTH_CLIPPING if self.clipping_inserted else resolve(self.settings).clipping
-        return clipping.clip(whole, distances, 3).primitives.varyings
+        cut = clipping.clip(whole, distances, 3).primitives
+        return cut.varyings, cut.triangle
 
 
 def line_reach(settings: Settings) -> float:

@@ -8,6 +8,7 @@ import numpy as np
 
 from core.methods import ReplacedName, table
 from core.records.clip_region import is_convex, region_in_window
+from core.records.words import nouns
 from core.scene import AnyScene, ClipScene, Scene
 from core.settings import FAMILIES, Settings, no_effect
 
@@ -30,6 +31,12 @@ def _concave_window(scene: AnyScene) -> str:
     return (
         "" if is_convex(region_in_window(scene.clip_region, scene.size)) else "that of this scene is concave"
     )
+
+
+def _no_triangles(scene: AnyScene) -> str:
+    if scene.corner_count == 3:
+        return ""
+    return f"this scene has {nouns(scene.corner_count).many}"
 
 
 def _meeting_rings(scene: AnyScene) -> str:
@@ -71,6 +78,7 @@ NEEDS = {
     "float64-edges": Need("edge functions in float64"),
     "mipmaps": Need("mipmaps of the texture"),
     "blending": Need("blending"),
+    "triangles": Need("triangles, whose planes it cuts by", _no_triangles),
     "perspective": Need("a perspective camera", _parallel_rays),
     "world-boxes": Need("meshes in world space, where w is 1", _moved_by_projection),
     "rectangle": Need("a rectangle as clip window", _polygon_as_window),

@@ -5,6 +5,7 @@ Vertices are transformed, projected and snapped once, however many triangles sha
 
 from dataclasses import replace
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -28,7 +29,14 @@ from core.culling.culling import (
 from core.families import suited
 from core.records.arrays import Flags, Floats, Integers
 from core.records.frame import StageCount
-from core.records.primitives import CornerValues, DrawingOrder, IndexedPrimitives, index_corners, own_corners
+from core.records.primitives import (
+    CornerValues,
+    DrawingOrder,
+    IndexedPrimitives,
+    Pieces,
+    index_corners,
+    own_corners,
+)
 from core.resolved import resolve
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings, families, no_effect
@@ -52,6 +60,13 @@ __all__ = [
 ]
 
 
+class Before(NamedTuple):
+    """What is drawn before a place of the drawing order, and after that one triangle, if any (-1: none)."""
+
+    place: int
+    then: int = -1
+
+
 _last: list[tuple[AnyScene, Settings, Geometry, dict[str, StageCount]]] = []
 """The geometry of the last whole scene, with its counts: scenes never change, so another look at the same one, a pixel
 that is pointed at or the next redraw, starts from there."""
@@ -61,15 +76,15 @@ def process_geometry(
     scene: AnyScene,
     settings: Settings,
     counts: dict[str, StageCount],
-    chosen: Integers | None = None,
+    chosen: Integers | Before | None = None,
     raster: Raster | None = None,
 ) -> Geometry:
     """Run the stages from the vertices to the edge functions; those of the last whole scene are kept.
 
     Parameters
     ----------
-    chosen : (C,) int64, optional
-        Only these triangles, in drawing order.
+    chosen : (C,) int64 or Before, optional
+        Only these triangles, or what is drawn before a place, in drawing order.
     raster : Raster, optional
         Leave out what lies beside it: a part of a picture is drawn from the triangles of that part.
     """
@@ -94,13 +109,19 @@ def _process(
     scene: AnyScene,
     settings: Settings,
     counts: dict[str, StageCount],
-    chosen: Integers | None,
+    chosen: Integers | Before | None,
     raster: Raster | None,
 ) -> Geometry:
     if not resolve(settings).draws_any_scene:
         check_needs(scene, settings)
     with counts["transform"]:
         vertices = transform_vertices(scene) if scene.program is None else vertex_stage(scene)
+    with counts["cull"]:
+        drawing, before = drawing_order(scene, vertices, settings), None
+        if isinstance(chosen, Before):
+            before, drawn = chosen, drawing.order[: chosen.place]
+            chosen = np.unique(drawn if chosen.then < 0 else np.append(drawn, chosen.then))
+    with counts["transform"]:
         assembled = assemble(scene, vertices, settings, counts["transform"], chosen)
         triangle_count = len(assembled)
         counts["transform"].incoming = counts["transform"].outgoing = triangle_count
@@ -135,25 +156,36 @@ def _process(
             if vertices.rings is None
             else cull_polygons(vertices, assembled, settings)
         )
-        drawing = drawing_order(scene, vertices, settings)
         wanted = culled.kept
         if raster is not None and vertices.rings is None:
             wanted = wanted & ~is_beside(window, assembled.corner, raster)
+        pieces = None
         if chosen is None and drawing.is_as_given and wanted.all():
             kept = assembled
-        else:
-            index = in_drawing_order(np.flatnonzero(wanted), assembled, drawing)
+        elif drawing.pieces is None:
+            index, _ = in_drawing_order(np.flatnonzero(wanted), assembled, drawing)
             kept, doubled_area = assembled.take(index), doubled_area.take(index)
+        else:
+            kept, pieces = cut_to_pieces(np.flatnonzero(wanted), assembled, drawing, before)
+            window, outcode = place(kept, scene.size, settings)
+            doubled_area = face(kept, window, scene.size, settings)
+            # Pieces that snapping makes flat cover no pixel.
+            index = np.flatnonzero(doubled_area != 0)
+            kept, pieces, doubled_area = kept.take(index), pieces.take(index), doubled_area.take(index)
         # Triangles beside the raster are counted as if they went on, or the bands' counts would not be the picture's.
-        kept_count = int(np.count_nonzero(culled.kept))
+        kept_count = cut_count = int(np.count_nonzero(culled.kept))
+        if pieces is not None:
+            cut_count = len(kept)
+            if raster is not None:
+                cut_count = len(in_drawing_order(np.flatnonzero(culled.kept), assembled, drawing)[0])
         counts["cull"].incoming, counts["cull"].outgoing = triangle_count, kept_count
 
     with counts["clip"]:
         primitives, clipped, inserted = clip(kept, outcode, settings, vertices.corner_count)
-        piece_count = kept_count if primitives is kept else kept_count + len(primitives) - len(kept)
+        piece_count = cut_count if primitives is kept else cut_count + len(primitives) - len(kept)
         counts["clip"].incoming, counts["clip"].outgoing = kept_count, piece_count
         is_clipped = clipped or (vertices.rings is not None and resolve(settings).clips_polygons)
-        counts["clip"].note = inserted if inserted else ("" if is_clipped else "not-chosen")
+        counts["clip"].note = inserted if inserted else ("" if is_clipped or pieces else "not-chosen")
 
     with counts["edges"]:
         counts["edges"].incoming = counts["edges"].outgoing = piece_count
@@ -167,6 +199,7 @@ def _process(
         assembled=assembled,
         culled=culled,
         kept=kept,
+        kept_pieces=pieces,
         clipped=clipped,
         clipping_inserted=inserted,
         primitives=primitives,
@@ -322,15 +355,48 @@ def drawing_order(scene: AnyScene, vertices: VertexStage, settings: Settings) ->
     return replace(drawing, order=np.argsort(np.argsort(drawing.order)[patch], kind="stable"))
 
 
-def in_drawing_order(index: Integers, assembled: IndexedPrimitives, drawing: DrawingOrder) -> Integers:
-    """Return ``index`` (P,) of assembled triangles from the first drawn to the last."""
+def in_drawing_order(
+    index: Integers, assembled: IndexedPrimitives, drawing: DrawingOrder
+) -> tuple[Integers, Integers]:
+    """Return ``index`` (P,) of assembled triangles from the first drawn to the last, and their places (P,) in it.
+
+    A triangle that is cut stands there once for each piece.
+    """
     number = assembled.source.take(index)  # Fragments of one patch go by the same ``triangle``.
     if drawing.is_as_given:
-        return index if (number[1:] >= number[:-1]).all() else index[np.argsort(number, kind="stable")]
-    place = np.full(len(drawing.order), -1)
+        ordered = index if (number[1:] >= number[:-1]).all() else index[np.argsort(number, kind="stable")]
+        return ordered, assembled.source.take(ordered)
+    place = np.full(int(drawing.order.max(initial=-1)) + 1, -1)
     place[number] = index
     ordered = place.take(drawing.order)
-    return ordered[ordered >= 0]
+    return ordered[ordered >= 0], np.flatnonzero(ordered >= 0)
+
+
+def cut_to_pieces(
+    index: Integers, assembled: IndexedPrimitives, drawing: DrawingOrder, before: Before | None = None
+) -> tuple[IndexedPrimitives, Pieces]:
+    """Return the pieces of assembled triangles ``index`` (P,) in drawing order, as primitives and as they were cut.
+
+    With ``before``, only those that it has.
+    """
+    assert drawing.pieces is not None
+    ordered, place = in_drawing_order(index, assembled, drawing)
+    if before is not None:
+        is_drawn = (place < before.place) | (assembled.source.take(ordered) == before.then)
+        ordered, place = ordered[is_drawn], place[is_drawn]
+    pieces, whole = drawing.pieces.take(place), assembled.take(ordered)
+
+    def values_of(source: Integers) -> CornerValues:
+        of_triangle = assembled.values_of(whole.source.take(source))
+        values = pieces.shares.take(source, axis=0) @ of_triangle.at_corners
+        return CornerValues(
+            values.reshape(3 * len(source), -1), of_triangle.layout, own_corners(np.arange(len(source)))
+        )
+
+    number = np.arange(len(ordered))
+    vertex_clip = np.ascontiguousarray(pieces.clip.reshape(-1, 4).T)
+    cut = IndexedPrimitives(vertex_clip, own_corners(number), whole.triangle, whole.mesh, values_of, number)
+    return cut, pieces
 
 
 def clip(

@@ -32,7 +32,7 @@ from core.stages.fragments import (
 )
 from core.stages.hidden_surfaces import StartBuffers, run_visibility_tests
 from core.stages.needs import check_edits
-from core.stages.vertices import Geometry, drawing_order, process_geometry
+from core.stages.vertices import Before, Geometry, drawing_order, process_geometry
 from core.visibility.ray_casting import RayTests
 from core.visibility.scan_line import ScanLines
 
@@ -95,14 +95,13 @@ class TraceSource:
     @cached_property
     def start(self) -> Frame:
         """The buffers before the first row."""
-        earlier = np.empty(0, np.int64)
+        first = 0
         if self.triangle is not None and self.before == "earlier":
             number = self.scene.numbers[self.order] if isinstance(self.scene, ClipScene) else self.order
             is_own = number == self.triangle
             # A patch without fragments is drawn after those before it.
             first = int(is_own.argmax()) if is_own.any() else int((number < self.triangle).sum())
-            earlier = np.sort(self.order[:first])
-        return draw(self.scene, self.settings, self.raster, earlier)
+        return draw(self.scene, self.settings, self.raster, Before(first))
 
     @property
     def fill(self) -> str:
