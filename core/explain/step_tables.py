@@ -115,6 +115,8 @@ def largest_tables(trace: StageTrace, count: int = 4) -> list[StepTable]:
 
 def _unit_ends(trace: StageTrace, level: Level) -> Integers:
     """Return behind which rows the steps of a level end."""
+    if level == Level.STAGE:
+        return np.array([trace.steps.row_count])
     return trace.steps.triangle_ends if level == Level.TRIANGLE else trace.steps.group_ends
 
 

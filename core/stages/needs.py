@@ -34,9 +34,8 @@ def _concave_window(scene: AnyScene) -> str:
 
 
 def _no_triangles(scene: AnyScene) -> str:
-    if scene.corner_count == 3:
-        return ""
-    return f"this scene has {nouns(scene.corner_count).many}"
+    # Segments and points have no plane: nothing is cut, and they are drawn as given.
+    return "" if 1 <= scene.corner_count <= 3 else f"this scene has {nouns(scene.corner_count).many}"
 
 
 def _meeting_rings(scene: AnyScene) -> str:
@@ -78,7 +77,7 @@ NEEDS = {
     "float64-edges": Need("edge functions in float64"),
     "mipmaps": Need("mipmaps of the texture"),
     "blending": Need("blending"),
-    "triangles": Need("triangles, whose planes it cuts by", _no_triangles),
+    "triangles": Need("triangles to cut", _no_triangles),
     "perspective": Need("a perspective camera", _parallel_rays),
     "world-boxes": Need("meshes in world space, where w is 1", _moved_by_projection),
     "rectangle": Need("a rectangle as clip window", _polygon_as_window),

@@ -389,9 +389,8 @@ def cut_to_pieces(
     def values_of(source: Integers) -> CornerValues:
         of_triangle = assembled.values_of(whole.source.take(source))
         values = pieces.shares.take(source, axis=0) @ of_triangle.at_corners
-        return CornerValues(
-            values.reshape(3 * len(source), -1), of_triangle.layout, own_corners(np.arange(len(source)))
-        )
+        rows = values.reshape(3 * len(source), values.shape[2])
+        return CornerValues(rows, of_triangle.layout, own_corners(np.arange(len(source))))
 
     number = np.arange(len(ordered))
     vertex_clip = np.ascontiguousarray(pieces.clip.reshape(-1, 4).T)

@@ -78,7 +78,7 @@ def _joined(traces: list[StageTrace], source: TraceSource) -> StageTrace:
     sample = np.repeat(np.arange(len(traces)), lengths)
     triangle = np.concatenate([trace.triangle for trace in traces])
     pixel, first = np.concatenate([trace.pixel for trace in traces]), traces[0]
-    loops = first.order.keys(pixel) if first.order else (_place_in_drawing(source)[triangle],)
+    loops = first.order.keys(pixel) if first.order else (_turns(traces, source, triangle),)
     order = np.lexsort((np.arange(len(sample)), sample, *loops[::-1]))
     new_row = np.empty(len(order), np.int64)
     new_row[order] = np.arange(len(order))
@@ -134,12 +134,16 @@ def _joined(traces: list[StageTrace], source: TraceSource) -> StageTrace:
     )
 
 
-def _place_in_drawing(source: TraceSource) -> Integers:
-    """Return by a triangle's number when it is drawn; the last element is that of rows about none."""
+def _turns(traces: list[StageTrace], source: TraceSource, triangle: Integers) -> Integers:
+    """Return when the triangle (R,) of each row is drawn; the pieces of one triangle are drawn in several turns."""
     drawn = source.geometry.primitives.triangle
     rank = np.zeros(int(drawn.max(initial=0)) + 2, np.int64)
     rank[drawn[::-1]] = np.arange(len(drawn))[::-1]
-    return rank
+    turn = rank[triangle]
+    if source.geometry.kept_pieces is None or "primitive" not in traces[0].columns:
+        return turn
+    primitive = np.concatenate([trace.columns["primitive"] for trace in traces])
+    return source.geometry.kept_of_primitive.take(np.where(primitive < 0, turn, primitive))
 
 
 def _joined_tracks(of_samples: list[BufferTrack], starts: Integers, new_row: Integers) -> list[BufferTrack]:
@@ -240,6 +244,9 @@ def _sample_columns(sample: Integers, position: Floats) -> dict[str, NDArray[Any
 
 # What traces each stage.
 
+ORDERED = ("painters", "bsp")
+"""Methods of visibility whose order has rows of its own, before those of the depth test."""
+
 
 def tracer_of(stage: str) -> Callable[[TraceSource], StageTrace]:
     """Return the function that traces a stage."""
@@ -259,6 +266,15 @@ def trace_stage(source: TraceSource, name: str) -> StageTrace:
 
     Exact areas and filters have their own rows where pixels are resolved; before, the pixels' centres are followed.
     """
+    found = _traced(source, name)
+    if name != "depth" or source.settings.visibility not in ORDERED:
+        return found
+    from core.visibility.traced_order import with_order  # Only sorts and trees wait for it.
+
+    return with_order(found, source)
+
+
+def _traced(source: TraceSource, name: str) -> StageTrace:
     antialiasing = source.settings.antialiasing
     if name == "resolve" or antialiasing == Settings.antialiasing:
         return tracer_of(name)(source)

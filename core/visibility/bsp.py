@@ -120,21 +120,20 @@ def plane_of(first: Sequence[Any], second: Sequence[Any], third: Sequence[Any]) 
     Components may be numbers or arrays (T,).
     """
     x, y, z, w = first
-    x1, y1, z1, w1 = (end - start for start, end in zip(first, second, strict=True))  #: one
-    x2, y2, z2, w2 = (end - start for start, end in zip(first, third, strict=True))  #: other
+    x1, y1, z1, w1 = (end - start for start, end in zip(first, second, strict=True))
+    x2, y2, z2, w2 = (end - start for start, end in zip(first, third, strict=True))
     xy, xz, xw = x1 * y2 - y1 * x2, x1 * z2 - z1 * x2, x1 * w2 - w1 * x2
     yz, yw, zw = y1 * z2 - z1 * y2, y1 * w2 - w1 * y2, z1 * w2 - w1 * z2
     a, b = y * zw - z * yw + w * yz, z * xw - x * zw - w * xz
-    c, d = x * yw - y * xw + w * xy, y * xz - x * yz - z * xy
-    return a, b, c, d  #: plane
+    c, d = x * yw - y * xw + w * xy, y * xz - x * yz - z * xy  #: plane
+    return a, b, c, d
 
 
 def distance_of(corner: Sequence[float], plane: Sequence[float]) -> float:
     """Listing of how far a corner lies from a plane, positive before it; what rounding may have made counts as 0."""
-    products = [coordinate * number for coordinate, number in zip(corner, plane, strict=True)]
-    distance = products[0] + products[1] + products[2] + products[3]  #: distance
-    size = abs(products[0]) + abs(products[1]) + abs(products[2]) + abs(products[3])
-    return 0.0 if abs(distance) <= TOLERANCE * size else distance  #: zero
+    x, y, z, w = (coordinate * number for coordinate, number in zip(corner, plane, strict=True))
+    size = abs(x) + abs(y) + abs(z) + abs(w)
+    return 0.0 if abs(x + y + z + w) <= TOLERANCE * size else x + y + z + w  #: distance
 
 
 def side_of(d: Sequence[float]) -> str:
@@ -158,16 +157,17 @@ def cut_piece(corners: Sequence[Any], d: Sequence[float]) -> tuple[list[Any], li
         here, there = corners[k], corners[k - 2]
         d_here, d_there = d[k], d[k - 2]
         if d_here >= 0:
-            front.append(here)  #: before
+            front.append(here)
         if d_here <= 0:
-            back.append(here)  #: behind
+            back.append(here)
         if min(d_here, d_there) < 0 < max(d_here, d_there):
             if d_here < 0:
                 here, there, d_here, d_there = there, here, d_there, d_here
-            corner = here + d_here / (d_here - d_there) * (there - here)  #: corner
+            t = d_here / (d_here - d_there)  #: t
+            corner = here + t * (there - here)  #: corner
             front.append(corner)
             back.append(corner)
-    return front, back  #: pieces
+    return front, back
 
 
 def eye_side(plane: Sequence[float]) -> str:

@@ -52,6 +52,12 @@ ANSWERS = {
     "resolve": lambda values: values["bytes"][0],
 }
 """What is right, by stage, from the numbers of the row."""
+OF_THE_ORDER = {
+    "swap": lambda values: values["distance"] <= values["other_distance"],
+    "place": lambda values: values["distance"] <= values["other_distance"],
+    "walk": lambda values: values["plane"][2] < 0,
+} | {side: lambda values, place=place: place for place, side in enumerate(("on", "front", "back", "cut"))}
+"""The same by kind, for the rows of the drawing order before those of the depth test."""
 
 
 def test_questions_are_finished_and_have_the_right_answer() -> None:
@@ -68,7 +74,9 @@ def test_questions_are_finished_and_have_the_right_answer() -> None:
                 assert re.fullmatch(r".*[^.]\.", asked.reveal), asked
                 assert not re.search(r"nan|None|array|-\d|_", asked.text + asked.reveal), asked
                 values = stage.variables(row)
-                if name in ANSWERS and not {"has_stepped", "is_inside", "threshold"} & {*values}:
+                if name == "depth" and stage.pixel[row, 0] < 0:
+                    assert asked.answer == OF_THE_ORDER[stage.kind_of(row)](values), (asked, values)
+                elif name in ANSWERS and not {"has_stepped", "is_inside", "threshold"} & {*values}:
                     assert asked.answer == float(np.asarray(ANSWERS[name](values))), (asked, values)
                 assert not asked.choices or asked.answer in range(len(asked.choices)), asked
     assert asked_about == set(STAGES) - {"shade"}

@@ -6,10 +6,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import STAGES, ClipScene, Settings, render, trace
+from core.coverage.pixel_runs import make_raster
 from core.framebuffer.display import to_display
 from core.methods import table
+from core.pipeline import draw
 from core.records.frame import Frame
 from core.settings import families
+from core.stages.vertices import Before
 from core.trace import Trace
 from core.trace.source import TraceSource
 from tests.core.strategies import ANY_TRIANGLES, BLOCK_SIZES
@@ -97,20 +100,29 @@ def part_of(scene: ClipScene, triangles: np.ndarray) -> ClipScene:
     )
 
 
+def picture_of(scene: ClipScene, settings: Settings, start: np.ndarray, then: list[int]) -> Frame:
+    """Draw some triangles of a scene, with their numbers in it."""
+    triangles = np.sort(np.append(start, then)).astype(np.int64)
+    picture = render(part_of(scene, triangles), settings)
+    number = np.append(triangles, -1).astype(np.int32)
+    object.__setattr__(picture, "primitive", number[picture.primitive])
+    if picture.samples is not None:
+        object.__setattr__(picture.samples, "primitive", number[picture.samples.primitive])
+    return picture
+
+
 def check_one_triangle(scene: ClipScene, settings: Settings, triangle: int) -> None:
     """Compare the trace of a triangle with pictures of scenes that have only the triangles drawn so far."""
     order = TraceSource(scene, settings).order
     done = int(np.flatnonzero(order == triangle)[0])
-    for before, start in (("earlier", np.sort(order[:done])), ("cleared", order[:0])):
+    for before, place in (("earlier", done), ("cleared", 0)):
         traced = trace(scene, settings, triangle, before=before)
-        first = render(part_of(scene, start), settings)
-        last = np.sort(np.append(start, triangle))
-        frame = render(part_of(scene, last), settings)
-        for picture, numbers in ((first, start), (frame, last)):
-            number = np.append(numbers, -1).astype(np.int32)
-            object.__setattr__(picture, "primitive", number[picture.primitive])
-            if picture.samples is not None:
-                object.__setattr__(picture.samples, "primitive", number[picture.samples.primitive])
+        if settings.visibility == "bsp":
+            # Other triangles cut otherwise: pieces are those of the whole scene.
+            raster = make_raster(scene.size, settings.pixel_center)
+            first, frame = (draw(scene, settings, raster, Before(place, then)) for then in (-1, triangle))
+        else:
+            first, frame = (picture_of(scene, settings, order[:place], then) for then in ([], [triangle]))
         check_frame(traced, frame)
         for name, (stage, track) in FOLDED.items():
             if name == "color" and settings.antialiasing != "none":
@@ -132,7 +144,10 @@ def test_one_triangle_of_a_lit_scene_gives_the_picture_when_it_is_the_last():
     scene = SCENES["lit"]
     for choice in EACH_METHOD:
         settings = Settings(**choice)
-        last = int(TraceSource(scene, settings).order[-1])
+        order = TraceSource(scene, settings).order
+        last = int(order[-1])
+        if (order == last).sum() > 1:
+            continue  # Pieces of others are drawn between its own.
         check_frame(trace(scene, settings, last), render(scene, settings))
 
 

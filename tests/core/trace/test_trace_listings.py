@@ -22,6 +22,7 @@ from tests.core.trace.depth_listings import check_blend, check_depth
 from tests.core.trace.executed_rows import equal, rows_of_kind
 from tests.core.trace.fragment_listings import check_interpolate, check_shade
 from tests.core.trace.geometry_listings import check_clip, check_cull, check_edges, check_transform
+from tests.core.trace.order_listings import check_sort, check_tree
 from tests.core.trace.raster_listings import check_bin, check_raster
 from tests.core.trace.trace_cases import EACH_METHOD, SCENES, name_of, settings_of, small_region
 from tests.covering import in_turn
@@ -93,9 +94,17 @@ class OnePart:
         return tracer_of(name)(self.source)
 
 
+def check_order(traced: Trace) -> None:
+    """Execute the listings of the order, whose rows come before those of the stage."""
+    check = {"painters": check_sort, "bsp": check_tree}.get(traced.source.settings.visibility)
+    if check is not None and traced.source.triangle is None and traced.source.scene.corner_count:
+        check(traced.stage("depth"))
+
+
 def check_all(traced: Trace) -> None:
     """Execute the listings of all stages: of several samples, on what the rows of each were made from."""
     source = traced.source
+    check_order(traced)
     side = resolve(source.settings).sampling.side
     check_resolve(traced)
     if side:

@@ -178,8 +178,9 @@ def test_too_many_pieces_are_refused_with_a_sentence() -> None:
     for count in (LARGEST_TREE + 1, 260):
         with pytest.raises(ValueError, match=f"bsp draws at most {LARGEST_TREE:,} pieces"):
             build_tree(crossing(count, 0))
-    with pytest.raises(ValueError, match=r"visibility bsp needs triangles.*this scene has segments"):
-        render(ClipScene(np.zeros((1, 2, 4)) + 1, size=SIZE, kind="segments"), Settings(visibility="bsp"))
+    polygon = ClipScene(np.ones((1, 4, 4)), size=SIZE, kind="polygons")
+    with pytest.raises(ValueError, match=r"visibility bsp needs triangles to cut: this scene has polygons"):
+        render(polygon, Settings(visibility="bsp"))
 
 
 @pytest.mark.parametrize(
