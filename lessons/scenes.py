@@ -6,17 +6,18 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from core.records.arrays import Floats, checked
 from core.scene import AnyScene, Camera, ClipScene, Mesh, Scene
 from core.transform.assembly import assemble
 from lessons.run_place import FIRST_STEP, RunPlace
 from lessons.shapes import FACE_COLORS, cube, knot, linear_color, sphere, teapot, torus
 from lessons.window_scenes import (
+    circle_of_bars,
     connecting_edges,
     pentagram,
     polygon_with_holes,
     two_triangles,
     weiler_atherton,
+    window_triangle,
 )
 from lessons.world_scenes import (
     TEACHING_SIZE,
@@ -51,48 +52,6 @@ class BuiltInScene:
     def card(self) -> str:
         """What its card and its menu entry say."""
         return f"{self.description} {self.opens.sentence}"
-
-
-def window_triangle(
-    x: ArrayLike, y: ArrayLike, depth: ArrayLike, w: ArrayLike, size: tuple[int, int]
-) -> Floats:
-    """Return the clip-space corners of a triangle given in the window.
-
-    Parameters
-    ----------
-    x, y : (3,) array_like
-        Pixels, y up.
-    depth : (3,) array_like
-        Window depth, from 0 (near) to 1 (far).
-    w : (3,) array_like
-        Clip-space w; not 0. Only its ratios matter, and only for what is interpolated.
-    size : (width, height)
-        Raster in pixels.
-
-    Returns
-    -------
-    (3, 4) float64
-        ``((2 x / width - 1) w, (2 y / height - 1) w, (2 depth - 1) w, w)``.
-
-    Raises
-    ------
-    ValueError
-        If an array is not three finite numbers, or a w is 0.
-
-    Notes
-    -----
-    The way there and back rounds; the result differs from x and y by far less than half of 1/256 pixel, so
-    corners on that grid snap to the same place.
-    """
-    columns = [
-        checked(name, values, (3,)) for name, values in (("x", x), ("y", y), ("depth", depth), ("w", w))
-    ]
-    across, up, far, weight = columns
-    if (weight == 0).any():
-        raise ValueError("w must not be 0: such a corner has no place in the window")
-    width, height = size
-    ndc = np.stack([2 * across / width - 1, 2 * up / height - 1, 2 * far - 1, np.ones(3)], axis=1)
-    return np.asarray(ndc * weight[:, None])
 
 
 def single_triangle() -> ClipScene:
@@ -322,6 +281,14 @@ CATALOGUE = (
         "Two triangles pass through each other, which only a test of each pixel's depth gets right.",
         intersecting,
         RunPlace("depth", "depth-failed"),
+    ),
+    BuiltInScene(
+        "circle-of-bars",
+        "Three bars in a circle",
+        "Each bar lies over the next: no order of drawing is right, and a tree of their planes cuts them until one is.",
+        circle_of_bars,
+        RunPlace("depth", "end", pixel=(33, 35)),
+        {"visibility": "painters"},
     ),
     BuiltInScene(
         "depth-table",

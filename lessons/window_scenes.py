@@ -1,15 +1,77 @@
-"""Scenes given in the window: polygons with holes, crossing themselves or cut; tables of whole-number depths."""
+"""Scenes given in the window: bars in a circle; polygons with holes, crossing themselves or cut; tables of depths."""
 
 from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from core.depth.whole_depths import table_scene
-from core.records.arrays import Floats
+from core.records.arrays import Floats, checked
 from core.records.depth_table import DepthTable, depths_of_text
 from core.scene import ClipScene
 from lessons.shapes import FACE_COLORS, linear_color
+
+# Triangles given in the window: bars that overlap in a circle.
+
+
+def window_triangle(
+    x: ArrayLike, y: ArrayLike, depth: ArrayLike, w: ArrayLike, size: tuple[int, int]
+) -> Floats:
+    """Return the clip-space corners of a triangle given in the window.
+
+    Parameters
+    ----------
+    x, y : (3,) array_like
+        Pixels, y up.
+    depth : (3,) array_like
+        Window depth, from 0 (near) to 1 (far).
+    w : (3,) array_like
+        Clip-space w; not 0. Only its ratios matter, and only for what is interpolated.
+    size : (width, height)
+        Raster in pixels.
+
+    Returns
+    -------
+    (3, 4) float64
+        ``((2 x / width - 1) w, (2 y / height - 1) w, (2 depth - 1) w, w)``.
+
+    Raises
+    ------
+    ValueError
+        If an array is not three finite numbers, or a w is 0.
+
+    Notes
+    -----
+    The way there and back rounds; the result differs from x and y by far less than half of 1/256 pixel, so
+    corners on that grid snap to the same place.
+    """
+    columns = [
+        checked(name, values, (3,)) for name, values in (("x", x), ("y", y), ("depth", depth), ("w", w))
+    ]
+    across, up, far, weight = columns
+    if (weight == 0).any():
+        raise ValueError("w must not be 0: such a corner has no place in the window")
+    width, height = size
+    ndc = np.stack([2 * across / width - 1, 2 * up / height - 1, 2 * far - 1, np.ones(3)], axis=1)
+    return np.asarray(ndc * weight[:, None])
+
+
+BARS = (
+    ((38.5, 31.5, 13.5), (41.25, 45.25, 5.75)),
+    ((10.5, 10.5, 53.5), (15.0, 7.0, 11.0)),
+    ((47.0, 54.0, 29.0), (3.75, 7.75, 43.25)),
+)
+"""X and y of three bars, wide and near at their first two corners, pointed and far at the third."""
+
+
+def circle_of_bars() -> ClipScene:
+    """Three bars of which each lies over the next: nothing passes through anything, and no order is right."""
+    size = (64, 48)
+    clip = [window_triangle(x, y, (0.3, 0.3, 0.7), (1, 1, 1), size) for x, y in BARS]
+    colors = np.stack([np.tile(linear_color(color), (3, 1)) for color in FACE_COLORS[:3]])
+    return ClipScene(np.stack(clip), colors, size)
+
 
 # Polygons given in the window: with holes, crossing themselves, cut at a clip window.
 

@@ -71,7 +71,8 @@ def test_the_catalogue():
     assert scene_names() == (
         "single-triangle", "shared-edge", "fan", "segment", "clipped-segment", "polygon-window",
         "line-strip", "points", "triangle-strip", "polygon", "polygon-holes", "weiler-atherton", "connecting-edges",
-        "pentagram", "near-plane", "boxes-around", "intersecting", "depth-table", "z-fighting", "textured-floor",
+        "pentagram", "near-plane", "boxes-around", "intersecting", "circle-of-bars", "depth-table", "z-fighting",
+        "textured-floor",
         "lit-floor", "cube", "teapot", "sphere", "torus", "knot",
     )  # fmt: skip
     for scene in CATALOGUE:

@@ -101,6 +101,9 @@ CLAIMS = {
         not unlike(s, object_culling="none") and np.sum(s.column("cull", "box_verdict") == "outside") >= 6
     ),
     "intersecting": lambda s: unlike(s, visibility="painters") > 100,
+    "circle-of-bars": lambda s: (
+        unlike(s, visibility="ray-casting") == 8 and len(s.run.stage("depth").extra["sorted"].pairs) == 3
+    ),
     "depth-table": lambda s: is_clear_of(s, np.inf),
     "z-fighting": lambda s: unlike(s, depth="z-24") > 300 and unlike(s, depth="z-16") == 0,
     "textured-floor": lambda s: unlike(s, interpolation="affine") > 1000,
