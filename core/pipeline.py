@@ -248,7 +248,7 @@ def blend(
 
 
 def draw_filtered(
-    scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None
+    scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | Before | None = None
 ) -> Frame:
     """Draw the ``chosen`` (T,) triangles, or all, at the pixels' centres, and smooth the edges in the picture."""
     from core.antialiasing.fxaa import around_edges, smoothed_frame
