@@ -9,8 +9,9 @@ from core import Settings, render
 from core.coverage.snapping import SUBPIXELS, snap
 from core.scene import ClipScene, Scene
 from core.transform.vertex_stage import transform_vertices
-from lessons.scenes import CATALOGUE, TEACHING_SIZE, built_in_scene, make_scene, scene_names, window_triangle
+from lessons.scenes import CATALOGUE, TEACHING_SIZE, built_in_scene, make_scene, scene_names
 from lessons.shapes import patches
+from lessons.window_scenes import window_triangle
 
 sizes = st.tuples(st.integers(1, 4096), st.integers(1, 4096))
 weights = st.floats(1e-3, 1e3) | st.floats(-1e3, -1e-3)

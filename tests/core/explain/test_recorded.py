@@ -33,7 +33,8 @@ from core.scene import AnyScene
 from core.trace import Explanation, StageTrace
 from core.trace.source import TraceSource
 from lessons.lectures.scenes import ALL_SCENES, clipped, degenerate, frustum_segments
-from lessons.scenes import built_in_scene, make_scene, window_triangle
+from lessons.scenes import built_in_scene, make_scene
+from lessons.window_scenes import window_triangle
 from tests.core.explain.explained_steps import (
     ROWS,
     Step,
