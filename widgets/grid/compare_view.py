@@ -309,7 +309,8 @@ class CompareView(QWidget):
         has_code = self._has_code()
         above, below = LINES_WITH_CODE if has_code else LINES
         self._make_room()
-        self.linked.show_last(not (has_code and self._is_tight))
+        # Before a class the listings need the room; the note tells the difference.
+        self.linked.show_last(not has_code or (self._wants_choices and not self._is_tight))
         if self.linked.is_folded:
             above, below = FOLDED_LINES
         elif self._is_tight:

@@ -53,7 +53,7 @@ class InspectorColumn(QTabWidget):
         self._width = self._tallest = 0
         """Width of what is in the pane that scrolls, and height of the tallest formula of the stage so far."""
         self._is_presenting, self._is_card_wanted, self._folds_listing = False, True, False
-        self._is_formula_alone = False
+        self._is_alone = False
         self._is_history_chosen = False
         """Whether the user wants to see histories while stepping."""
         self.card, self.formula, self.code = StageCardView(self), FormulaView(self), ListingPane(self)
@@ -155,6 +155,10 @@ class InspectorColumn(QTabWidget):
     def _show_parts(self) -> None:
         self.card.setVisible(self._is_card_wanted and not self._is_presenting)
         self.rows.setVisible(not (self._folds_listing and self._is_presenting))
+        self.tabBar().setVisible(not self._is_alone)
+        self.sentence.setVisible(not self._is_alone)
+        for part in (self._step_pane, self.variables):
+            part.setVisible(not (self._is_alone and self._wants_listing()))
         self.fit()
 
     def show_formula(self, formula: Formula | None, is_new_stage: bool) -> None:
@@ -190,8 +194,10 @@ class InspectorColumn(QTabWidget):
         """Keep room for the sentence, the tallest formula and some of the listing, in any type."""
         line = round(1.25 * current_theme().text_px)
         self.sentence.setMinimumHeight(SENTENCE_LINES * line)
-        told = 0 if self._is_formula_alone else SENTENCE_LINES * line + 4
+        told = 0 if self._is_alone else SENTENCE_LINES * line + 4
         step, details = told + self._tallest, VARIABLE_LINES * (line + 6)
+        if self._is_alone and self._wants_listing():
+            step = details = 0
         self._parts.activate()  # What has just come or gone above has moved the pane.
         above = self._step_pane.y() + step
         head = self.code.height_around
@@ -217,24 +223,37 @@ class InspectorColumn(QTabWidget):
             code += head
             self.rows.setSizes([code, max(self.rows.height() - code - self.rows.handleWidth(), details)])
 
+    def _wants_listing(self) -> bool:
+        """Return whether the listing goes before all else in front of a class: it is to be changed."""
+        return self._is_presenting and not self._folds_listing
+
     def step_heights(self, width: int) -> tuple[int, int]:
-        """Return the heights at which the step is read without scrolling in a width, and its formula alone."""
+        """Return the heights at which the step is read without scrolling in a width, and its most important part.
+
+        That is the formula; in front of a class the listing, where it is to be changed.
+        """
         line, inner = round(1.25 * current_theme().text_px), max(width - self._bar_width(), 1)
         formula = max(self._tallest, self.formula.heightForWidth(inner))
         told = max(SENTENCE_LINES * line, self.sentence.heightForWidth(inner))
-        return self.tabBar().sizeHint().height() + told + 4 + formula, formula
+        whole, part = self.tabBar().sizeHint().height() + told + 4 + formula, formula
+        if self._wants_listing():
+            least, most = (
+                self.listing.height_of(PRESENTED_LINES, False),
+                self.listing.height_of(LISTING_LINES),
+            )
+            part = least + self.code.height_around
+            whole += most + self.code.height_around
+        return whole, part
 
     def _bar_width(self) -> int:
         return self.step.verticalScrollBar().sizeHint().width()
 
-    def show_formula_alone(self, is_alone: bool) -> None:
-        """Leave out the tabs and the sentence for want of room, or show them again."""
-        if is_alone == self._is_formula_alone:
+    def show_part_alone(self, is_alone: bool) -> None:
+        """Leave out all but the most important part for want of room, see `step_heights`, or show all again."""
+        if is_alone == self._is_alone:
             return
-        self._is_formula_alone = is_alone
-        self.tabBar().setVisible(not is_alone)
-        self.sentence.setVisible(not is_alone)
-        self.fit()
+        self._is_alone = is_alone
+        self._show_parts()
 
     def show_prediction(self, is_shown: bool) -> None:
         """Ask in place of telling: above the sentence."""
@@ -319,19 +338,19 @@ class SideColumn(QWidget):
         self._is_owed = False
         if self._lesson is None:
             self._below.show()
-            self._inspector.show_formula_alone(False)
+            self._inspector.show_part_alone(False)
             return
-        whole, formula = self._inspector.step_heights(self.width())
+        whole, part = self._inspector.step_heights(self.width())
         least = min(whole, round(INSPECTOR_LINES * 1.5 * current_theme().text_px))
         wanted = self._lesson.height_for(self.width())
         room = self.height() - wanted - self._layout.spacing()
         is_alone, has_room = False, room >= least
         if self._is_presenting:
-            is_alone, has_room = room < whole, room >= formula
+            is_alone, has_room = room < whole, room >= part
         gives_way = self._gives_way or self._is_presenting
         is_wanted = not (self._inspector.isHidden() or self._is_idle)
         is_inspected = is_wanted and (has_room or not gives_way)
-        self._inspector.show_formula_alone(is_alone and has_room)
+        self._inspector.show_part_alone(is_alone and has_room)
         self._below.setVisible(is_inspected)
         most = self.height()
         if is_inspected and not has_room:
