@@ -119,8 +119,11 @@ class ListingView(CodeView):
         self.setAccessibleDescription(f"Line {line} has just run: {code}" if line else "")
         self._bring_line_into_view()
 
-    def _bring_line_into_view(self) -> None:
-        """Scroll to the marked line, unless text is being selected."""
+    def _bring_line_into_view(self, *, stays_near: bool = True) -> None:
+        """Scroll to the marked line, unless text is being selected: no further than needed, or to the middle.
+
+        In another size it goes to the middle: sizes come and go while a window opens, and must leave no trace.
+        """
         if self._line is None or self.textCursor().hasSelection():
             return
         block = self.document().findBlockByNumber(self._line - 1)
@@ -135,7 +138,9 @@ class ListingView(CodeView):
             at = at.next()
         height = self.viewport().height() - self.document().documentMargin()
         page, bar = int(height / self.fontMetrics().lineSpacing()), self.verticalScrollBar()
-        bar.setValue(best_first_row([*rows.values()], rows[self._line - 1], page, bar.value()))
+        marked = rows[self._line - 1]
+        present = bar.value() if stays_near else marked[0] - page // 2
+        bar.setValue(best_first_row([*rows.values()], marked, page, present))
 
     @Slot(object)
     def show_breakpoints(self, lines: Collection[int]) -> None:
@@ -177,7 +182,7 @@ class ListingView(CodeView):
             self.room_changed.emit()
         # After whoever gives it more room, which may be at once.
         self.place_margin()
-        self._bring_line_into_view()
+        self._bring_line_into_view(stays_near=False)
 
     def showEvent(self, event: QShowEvent) -> None:
         """Bring the line into view that was marked while nobody saw it."""

@@ -157,8 +157,7 @@ class InspectorColumn(QTabWidget):
         self.rows.setVisible(not (self._folds_listing and self._is_presenting))
         self.tabBar().setVisible(not self._is_alone)
         self.sentence.setVisible(not self._is_alone)
-        for part in (self._step_pane, self.variables):
-            part.setVisible(not (self._is_alone and self._wants_listing()))
+        self._step_pane.setVisible(not (self._is_alone and self._wants_listing()))
         self.fit()
 
     def show_formula(self, formula: Formula | None, is_new_stage: bool) -> None:

@@ -181,6 +181,21 @@ def test_the_marked_line_is_in_view_in_a_view_that_shrinks_or_was_hidden(qtbot, 
     assert is_in_view(21)
 
 
+def test_sizes_on_the_way_to_a_size_leave_no_trace(qtbot, view) -> None:
+    view.show_listing(ListingText("long", "\n".join(f"x{k} = {k}" for k in range(60))))
+    places = set()
+    for heights in ((400,), (120, 400), (400, 90, 700, 400)):
+        view.show_line(5)
+        view.show_line(30)
+        for height in heights:
+            view.resize(421, height + 1)
+            QApplication.processEvents()
+            view.resize(420, height)
+            QApplication.processEvents()
+        places.add(view.verticalScrollBar().value())
+    assert len(places) == 1
+
+
 def test_no_line_is_marked_over_the_hint_of_an_empty_view(view) -> None:
     view.activateWindow()
     view.setFocus()
