@@ -9,6 +9,7 @@ from lessons.mistakes import (
     fragments,
     scan_conversion,
     shaders,
+    smoothing,
     surfaces,
     transforms,
 )
@@ -37,6 +38,7 @@ RULES: dict[str, WrongRule] = {
         scan_conversion,
         surfaces,
         depths,
+        smoothing,
     )
     for rule in module.RULES
 }

@@ -4,7 +4,16 @@ import numpy as np
 import pytest
 
 from core import Settings, render, trace
-from lessons.mistakes import clipping, coverage, depths, fragments, scan_conversion, surfaces, transforms
+from lessons.mistakes import (
+    clipping,
+    coverage,
+    depths,
+    fragments,
+    scan_conversion,
+    smoothing,
+    surfaces,
+    transforms,
+)
 from lessons.mistakes import clipping as cutting
 from lessons.mistakes import scan_conversion as lines
 from lessons.mistakes import surfaces as textures
@@ -31,7 +40,7 @@ def test_a_wrong_formula_shows_in_one_place_and_hides_in_another(rule: WrongRule
 
 def test_names_are_unique_and_unknown_ones_refused() -> None:
     runs = {clipping, coverage, depths, scan_conversion, fragments, lines, textures}
-    formulas = {cutting, depths, scan_conversion, surfaces, textures, transforms}
+    formulas = {cutting, depths, scan_conversion, smoothing, surfaces, textures, transforms}
     count = sum(len(module.TWINS) for module in runs) + sum(len(module.RULES) for module in formulas)
     assert len(MISTAKES) == count + len(SHADERS)
     with pytest.raises(ValueError, match="expected a mistake such as corner-for-center"):

@@ -10,7 +10,7 @@ from core import Settings
 from core.antialiasing.resolve import tent
 from core.framebuffer.display import srgb_byte
 from lessons.exercises.drafting import by_rule, listed, numbers
-from lessons.exercises.numbers import Draws, number_text
+from lessons.exercises.numbers import Draws, number_text, reject
 from lessons.exercises.question import Draft, template
 from lessons.mistakes.depths import Layer, cards
 from lessons.mistakes.shelf import SHELF
@@ -170,6 +170,37 @@ def draw_tent(draws: Draws) -> Draft:
         Hint: Multiply the weights of both directions.
         Hint: (1 - |{number_text(place)} - 1/2|) (1 - |{number_text(other)} - 1/2|)."""
     return numbers(asked, given, right)
+
+
+@template("luma-contrast", 1, "Is an edge here?", "resolve", 1)
+def draw_contrast(draws: Draws) -> Draft:
+    """The contrast that FXAA looks at."""
+    lumas = [Fraction(draws.whole(5, 95), 100) for _ in range(5)]
+    reject(lumas[0] in (min(lumas), max(lumas)))
+    names = ("pixel", "above", "below", "left", "right")
+    given = "\n".join(f"Luma, {name}: {number_text(luma)}" for name, luma in zip(names, lumas, strict=True))
+    asked = f"""FXAA looks for edges in the finished picture. What is the contrast at this pixel, which decides
+        whether an edge is here?
+        Hint: How far apart do the five lumas lie?
+        Hint: It is the range of all five: the largest less the smallest.
+        Hint: {number_text(max(lumas))} - {number_text(min(lumas))}."""
+    return by_rule(asked, given, (lumas,), ("contrast-to-center",))
+
+
+@template("stair-end", 1, "How far a stair is smoothed", "resolve", 2)
+def draw_stair(draws: Draws) -> Draft:
+    """How far FXAA moves a colour."""
+    back, forth = draws.whole(1, 9), draws.whole(1, 9)
+    near = min(back, forth)
+    reject(back == forth or back + forth == 4 * near)
+    given = f"Ends: {back} pixels to the left, {forth} to the right"
+    asked = f"""FXAA has found a level edge beside a pixel, and walked along it to both ends of its stair. At the
+        nearer end both sides turn to the colour of the other side. How far does this end move the pixel's
+        colour across the edge, in pixels?
+        Hint: At the end of a stair a colour moves by half a pixel, in the middle by nothing.
+        Hint: It is 1/2 less the share of the stair that lies between the pixel and the nearer end.
+        Hint: 1/2 - {near} / ({back} + {forth})."""
+    return by_rule(asked, given, (back, forth), ("moved-in-the-middle", "stair-of-one-side"))
 
 
 @template("mean-of-bytes", 1, "The mean of two bytes", "resolve", 2)
