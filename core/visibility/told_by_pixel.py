@@ -6,7 +6,7 @@ from core.explain.formulas import concludes, formula_of, named, upright
 from core.explain.number_text import spoken
 from core.explain.step_values import Said, StepValues, explains
 from core.explain.steps import VariableText, shows
-from core.records.words import capitalized, counted, joined
+from core.records.words import counted, joined
 
 
 @explains("depth.ray-loops.count")
@@ -14,22 +14,18 @@ def loops(step: StepValues) -> Said:
     """How often both loops run: each pixel once, each primitive for every ray."""
     rays, primitives, hits = (step.whole(name) for name in ("ray_count", "primitive_count", "hit_count"))
     place = "sample" if step.has("sample") else "pixel"
-    of_sample = (
-        f"Sample {step.whole('sample')} of each pixel: "
-        if step.has("sample") and step.whole("sample") >= 0
-        else ""
-    )
+    whose = f"Every {place}'s ray"
+    if step.has("sample") and step.whole("sample") >= 0:
+        whose = f"The ray of sample {step.whole('sample')} of every pixel"
     focus, asked = step.whole("focus"), rays * primitives
     whom = counted(primitives, step.nouns.one, step.nouns.many)
     if focus >= 0:
         whom = f"{step.named_primitive(focus)}, which alone is traced"
-    ask = "asks" if rays == 1 else "ask"
-    text = f"{of_sample}in all {counted(rays, 'ray')}, one for each {place}, {ask} {whom}: {counted(asked, 'test')}"
-    text += f", of which {hits:,} {'is a hit' if hits == 1 else 'are hits'}"
+    text = f"{whose} asks {whom}: {counted(asked, 'test')}, {counted(hits, 'hit')}"
     if asked > hits and not step.flag("lists_misses"):
-        text += "; only hits have rows"
-    text += f"; each {place} is accessed once, each {step.nouns.one} {counted(rays, 'time')}."
-    return capitalized(text), formula_of(
+        text += ", and only hits have rows"
+    text += f"; each {place} is accessed once, each {step.nouns.one} {counted(rays, 'time')}"
+    return f"{text}.", formula_of(
         named(upright("tests"), asked).equals(
             named(upright("rays"), rays) @ named(upright(step.nouns.many), primitives)
         )
@@ -44,10 +40,17 @@ def missed(step: StepValues) -> Said:
     text = f"{step.pixel_name}: its ray misses {step.name}"
     if not outside:
         return f"{text}, which does not cover the pixel."
-    reasons = [f"E{k} is {'not a number' if math.isnan(values[k]) else spoken(values[k])}" for k in outside]
+    reasons = [f"E{k} is {_shown(values[k])}" for k in outside]
     tests = (named(f"E_{k}", values[k]).compared(">") for k in outside)
     text += f", outside {joined([f'edge {k}' for k in outside])} ({joined(reasons)})."
     return text, formula_of(concludes("hit", "missed", *tests))
+
+
+def _shown(value: float) -> str:
+    """Return an edge function that does not let a pixel in, in words where it is no negative number."""
+    if math.isnan(value):
+        return "not a number"
+    return "0, a tie that the edge does not own" if value == 0 else spoken(value)
 
 
 shows(
