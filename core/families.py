@@ -103,6 +103,7 @@ NOT_FOR: Mapping[str, Mapping[str, str]] = {
     "own shaders": {
         "shading": "The scene's own shaders do it. The pane Shaders (L) takes them off.",
         "object_culling": "The scene's vertex shader moves the corners: the boxes of its meshes do not hold them.",
+        "depth_test_time": "A shader may discard a fragment, so depth is tested after it has run.",
     },
     "no lights": {
         "shading": "Typed triangles have no lights: they are unlit.",

@@ -154,6 +154,12 @@ class ResolvedSettings:
         return is_registered(self.settings.interpolation, "flat")
 
     @cached_property
+    def tests_early(self) -> bool:
+        """Whether depth is tested before a fragment is shaded: the method of visibility takes the time of the test."""
+        is_early: bool = self.method("depth_test_time").function()
+        return is_early and "depth_test_time" in self.method("visibility").takes
+
+    @cached_property
     def depth_format(self) -> "DepthFormat":
         """How depth is stored and compared."""
         made: DepthFormat = self.method("depth").function()

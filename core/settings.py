@@ -181,6 +181,15 @@ class Settings:
         "core.visibility.bsp",
         classical=("z-buffer", "painters", "ray-casting"),
     )
+    depth_test_time: str = choice(
+        "late",
+        "Depth test",
+        "depth",
+        "core.depth.early_depth",
+        asks=("listing",),
+        taken_by="visibility",
+        otherwise="Only methods that test the depth of each fragment can test it early.",
+    )
     depth: str = choice(
         "z-float32",
         "Depth",

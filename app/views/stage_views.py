@@ -59,9 +59,9 @@ def traced_counts(trace: Trace) -> dict[str, tuple[int, int]]:
     found = {stage: (count.incoming, count.outgoing) for stage, count in counts.items()}
     found |= {"transform": (given, given), "cull": (given, kept)}
     found |= {"clip": (kept, pieces), "edges": (pieces, pieces)}
-    tested, fragments, shaded, passed = trace.fragment_counts
+    tested, fragments, interpolated, shaded, passed = trace.fragment_counts
     found |= {"bin": (pieces, tested), "raster": (tested, fragments)}
-    found |= dict.fromkeys(("interpolate", "shade"), (shaded, shaded))
+    found |= {"interpolate": (interpolated, interpolated), "shade": (interpolated, shaded)}
     found |= {"depth": (fragments, passed), "blend": (passed, passed)}
     if source.scene.corner_count != 3:
         found |= {"bin": (pieces, pieces), "raster": (pieces, found["raster"][1])}

@@ -190,6 +190,9 @@ NOT_EDITABLE = {
     "polygon_fill": "Its listing keeps tables of edges.",
     "pixel_center": _FIXED,
     "provoking": _FIXED,
+    "depth_test_time": _FIXED.replace(
+        "chooses what is drawn, and has no listing", "runs whole stages, not numbers"
+    ),
     "wrap": "Its listing stands below that of the texture filter: edit it there.",
     "visibility": "It orders triangles, or casts rays, for the whole picture at once.",
     "antialiasing": _FIXED,

@@ -73,6 +73,12 @@ def _line_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
     return [f"{counted(counts['covered'], _place(counts))} drawn", *ties]
 
 
+def _shade_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
+    skipped = counts["depth-failed"]
+    hidden = [f"{skipped:,} hidden already and not shaded"] if skipped else []
+    return [f"{counted(counts['rows'] - skipped, _place(counts))} coloured", *hidden]
+
+
 def _depth_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
     fragments = counts["covered"] + counts["depth-failed"]
     tested = [f"{counted(fragments, 'fragment')} tested"]
@@ -146,7 +152,7 @@ ACCOUNTS: Mapping[str, Account] = {
     "bin": _bin_account,
     "raster": _raster_account,
     "interpolate": _rows_account("pixel", "given weights and values"),
-    "shade": _rows_account("pixel", "coloured"),
+    "shade": _shade_account,
     "depth": _depth_account,
     "blend": _rows_account("colour", "written"),
     "resolve": _rows_account("pixel", "encoded for the display"),

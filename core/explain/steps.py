@@ -167,8 +167,8 @@ SUBJECTS = (
         "shading.told",
         "shaders.told",
     ),
-    *("depth.told", "visibility.told", "visibility.told_by_pixel", "visibility.told_scan_line"),
-    *("visibility.told_order", "visibility.told_tree"),
+    *("depth.told", "depth.told_early", "visibility.told", "visibility.told_by_pixel"),
+    *("visibility.told_scan_line", "visibility.told_order", "visibility.told_tree"),
     *("framebuffer.told", "antialiasing.told", "antialiasing.told_fxaa"),
 )
 """What the topics say of their steps; the variables of a stage stand in their order."""

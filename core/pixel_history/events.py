@@ -30,6 +30,7 @@ from core.pixel_history.fragments import (
 )
 from core.records.arrays import Integers
 from core.resolved import resolve
+from core.stages.hidden_surfaces import tests_early
 
 # The first line of a pixel's history: what is seen here and why, or what became of one triangle.
 
@@ -171,6 +172,8 @@ def _fragment_events(
     blend = resolve(candidates.settings).blend_name
     hidden_by = overwriters(fragments, blend)
     corner_count = candidates.scene.corner_count
+    # Of several samples, a fragment that is hidden at this one may be shaded for another.
+    is_early = candidates.colored_by is None and tests_early(candidates.scene, candidates.geometry)
     events = []
     for k, (which, passage) in enumerate(zip(candidates.covering.tolist(), passages, strict=True)):
         raster = []
@@ -181,8 +184,10 @@ def _fragment_events(
         chain = [*_upper_chain(candidates, which), *raster]
         if corner_count in (2, 3):
             chain.append(Link("interpolate", "weights", _weights(candidates, fragments, k)))
-        chain.append(Link("shade", "color", {"color": fragments.color[k]}))
-        chain.append(passage.depth_link)
+        shaded = Link("shade", "color", {"color": fragments.color[k]})
+        if is_early and not passage.passes:
+            shaded = Link("shade", "not-shaded", {})
+        chain += [shaded, passage.depth_link]
         if passage.passes:
             values = {"by": hidden_by[k], "alpha": float(fragments.source[k, 3])}
             key = "overwritten" if hidden_by[k] >= 0 else "written"

@@ -34,7 +34,8 @@ def event_reason(event: PixelEvent, drawn: Nouns = TRIANGLES) -> str:
     """
     links = [event.reason]
     if event.kind == "fragment":
-        links = [link for link in event.chain if link.stage in ("raster", "interpolate", "depth", "blend")]
+        stages = ("raster", "interpolate", "depth", "blend")
+        links = [link for link in event.chain if link.stage in stages or link.key == "not-shaded"]
     first = link_sentence(links[0], drawn)
     clip = event.link("clip")
     if clip is not None and clip is not event.reason and clip.key == "clipped":
@@ -231,6 +232,7 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     **COVERAGE,
     ("interpolate", "weights"): _weights,
     ("shade", "color"): lambda v: "colour " + ", ".join(exact_text(c) for c in v["color"]),
+    ("shade", "not-shaded"): "not shaded, as it failed the early depth test",
     ("depth", "passed"): lambda v: f"passed the depth test: {_compared(v, 'against')}",
     ("depth", "failed"): lambda v: f"failed the depth test: {_compared(v, 'is not nearer than')}",
     ("depth", "tied"): lambda v: (

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from core.depth.traced_early import without_hidden
 from core.interpolation.interpolation import ValueRule
 from core.lines.wireframe import LineFragments, line_parameter, values_at_ends
 from core.lines.wireframe_fragments import affine_line_slopes_at, line_slopes_at
@@ -182,7 +183,7 @@ def trace_shade(source: TraceSource) -> StageTrace:
         triangle_ends=ends_of(triangle),
         group_ends=ends_of(fragments.primitive, fragments.row),
     )
-    return StageTrace(
+    found = StageTrace(
         stage="shade",
         method=f"shading={source.settings.shading}"
         if is_lit
@@ -199,6 +200,7 @@ def trace_shade(source: TraceSource) -> StageTrace:
         buffers=_buffers(source, columns, is_textured),
         extra={"textures": _textures(source), "mesh": mesh},
     )
+    return without_hidden(source, found)
 
 
 def _columns(source: TraceSource, mesh: Integers) -> dict[str, np.ndarray]:

@@ -25,6 +25,7 @@ from core.framebuffer.blending import blend_stacks
 from core.lines.wireframe_fragments import writes_depth
 from core.records.arrays import Flags, Floats, Integers, Singles, read_only
 from core.resolved import resolve
+from core.scene import AnyScene
 from core.stages.fragments import fragments_at, owner_of
 from core.stages.geometry import Geometry
 from core.visibility.ray_casting import RayTests, run_ray_tests
@@ -95,6 +96,11 @@ def run_visibility_tests(
     rays = run_ray_tests(planes, triangle, m, n, stacks.layers(), start.triangle.take(stacks.pixel), writes)
     kept = rays.passes if writes is None else rays.passes & writes
     return DepthTests(replay_depths(stored, stacks, start.depth, kept), rays.passes), rays
+
+
+def tests_early(scene: AnyScene, geometry: Geometry) -> bool:
+    """Return whether a fragment is shaded only if it passes the depth test: never where a shader might discard it."""
+    return resolve(geometry.settings).tests_early and scene.program is None
 
 
 @dataclass(frozen=True, eq=False)

@@ -34,8 +34,8 @@ class Trace:
         self._stages: dict[str, StageTrace] = {}
 
     @cached_property
-    def fragment_counts(self) -> tuple[int, int, int, int]:
-        """Pixels or samples that are tested and covered, what is shaded, and what passes the depth test."""
+    def fragment_counts(self) -> tuple[int, int, int, int, int]:
+        """Pixels or samples tested and covered, what is interpolated and shaded, and what passes the depth test."""
         from core.trace.sample_sources import count_fragments
 
         return count_fragments(self.source)

@@ -12,7 +12,7 @@ from core.antialiasing.resolve import at_sample, finer_raster, finer_scene, fine
 from core.antialiasing.sampling import ROTATED_GRID
 from core.coverage.fills import Fragments
 from core.coverage.pixel_runs import Raster
-from core.records.arrays import Floats, cached_property
+from core.records.arrays import Flags, Floats, cached_property
 from core.records.frame import Frame, StageCount
 from core.resolved import resolve
 from core.stages.declared import STAGES
@@ -88,6 +88,21 @@ class CenterSource(TraceSource):
         once = np.unique(np.stack([owner, row, column], axis=1), axis=0)
         return fragments_at(self.geometry, once[:, 0], once[:, 2], once[:, 1])
 
+    @property
+    def is_tested_alone(self) -> bool:
+        """Every covered sample of a fragment is tested."""
+        return False
+
+    @property
+    def _passed(self) -> Flags:
+        """(F,) bool, the fragments of which some sample passes."""
+        pixels = self.raster.shape[0] * self.raster.shape[1]
+        passed = [
+            (owner_of(source.fragments) * pixels + source.place)[source.depth_tests.passes]
+            for source in self.samples
+        ]
+        return np.isin(owner_of(self.fragments) * pixels + self.place, np.concatenate(passed))
+
 
 @dataclass(frozen=True, eq=False)
 class FinerSource(TraceSource):
@@ -146,17 +161,17 @@ def stepped_sources(whole: TraceSource) -> tuple[tuple[TraceSource, ...], TraceS
     return samples, center_source(whole, samples)
 
 
-def count_fragments(whole: TraceSource) -> tuple[int, int, int, int]:
-    """Count the pixels or samples that are tested and covered, what is shaded, and what passes the depth test.
+def count_fragments(whole: TraceSource) -> tuple[int, int, int, int, int]:
+    """Count pixels or samples that are tested and covered, what is interpolated and shaded, what passes the depth test.
 
-    Shading comes before the depth test: what is hidden in the end counts, too.
+    Interpolation comes before the depth test, and shading, too, where it is late: what is hidden in the end counts.
     """
     sources, shaded = stepped_sources(whole)
     fragments = [len(source.fragments) for source in sources]
     is_filled = whole.geometry.outlines is None
     tested = [int(source.runs.lengths.sum()) for source in sources] if is_filled else fragments
     passed = sum(int(source.depth_tests.passes.sum()) for source in sources)
-    return sum(tested), sum(fragments), len(shaded.fragments), passed
+    return sum(tested), sum(fragments), len(shaded.fragments), int(shaded.shaded.sum()), passed
 
 
 def center_source(whole: TraceSource, samples: tuple[SampleSource, ...]) -> CenterSource:

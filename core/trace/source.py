@@ -30,7 +30,7 @@ from core.stages.fragments import (
     surface_of,
     texture_slopes,
 )
-from core.stages.hidden_surfaces import StartBuffers, run_visibility_tests
+from core.stages.hidden_surfaces import StartBuffers, run_visibility_tests, tests_early
 from core.stages.needs import check_edits
 from core.stages.vertices import Before, Geometry, drawing_order, process_geometry
 from core.visibility.ray_casting import RayTests
@@ -236,6 +236,22 @@ class TraceSource:
             left = before.copy()
             left[keeps] = tests.left
         return DepthTests(before, passes, left)
+
+    @property
+    def is_tested_alone(self) -> bool:
+        """Whether each fragment has one depth test of its own, not one for each sample."""
+        return True
+
+    @cached_property
+    def shaded(self) -> Flags:
+        """(F,) bool, the fragments that are shaded: all, or those that pass an early depth test."""
+        is_early = tests_early(self.scene, self.geometry)
+        return self._passed if is_early else np.ones(len(self.fragments), bool)
+
+    @property
+    def _passed(self) -> Flags:
+        """(F,) bool, the fragments that pass the depth test."""
+        return self.depth_tests.passes
 
     @cached_property
     def picture(self) -> Frame:

@@ -21,6 +21,7 @@ from core.records.primitives import DrawingOrder
     "Z-buffer",
     source="Catmull 1974; Zwicker 2016, Z-buffering",
     exact_for="opaque triangles, to the resolution of the depth format",
+    takes=("depth_test_time",),
 )
 def z_buffer(clip: Floats) -> DrawingOrder:
     """Draw as given; a fragment is kept where it is nearer than what is there."""

@@ -217,6 +217,7 @@ FIRST, BY_FLOATS, EXACTLY = 0, 1, 2
     source="Appel 1968; Pellacini, hidden surface removal: raycasting",
     exact_for="opaque triangles in any order: depths are compared exactly, without a depth buffer",
     breaks_where="coplanar triangles: a tie keeps the first one drawn",
+    takes=("depth_test_time",),
     traits="rays",
 )
 def ray_casting(clip: Floats) -> DrawingOrder:

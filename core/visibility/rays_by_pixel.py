@@ -50,6 +50,7 @@ def cast_all_rays(
     source="Appel 1968; Pellacini, graphics pipelines vs. raytracing",
     exact_for="opaque triangles in any order: each hit is decided as in ray casting (exact)",
     breaks_where="large meshes: every ray asks every triangle; coplanar triangles: a tie keeps the first one drawn",
+    takes=("depth_test_time",),
     listing=cast_all_rays,
     traits="rays",
 )

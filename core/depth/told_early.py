@@ -1,0 +1,37 @@
+"""The early depth test, told: why a fragment is not shaded."""
+
+import math
+
+from core.explain.formulas import below, concludes, formula_of, named
+from core.explain.number_text import pair_text
+from core.explain.step_values import Said, StepValues, explains
+from core.explain.steps import VariableText, shows
+
+
+@explains("shade.skipped.skip")
+def skipped(step: StepValues) -> Said:
+    """A fragment that does not pass, and so is not shaded."""
+    text = f"{step.fragment_name}: hidden already, so it is not shaded"
+    stored, before = step.number("stored"), step.number("before")
+    if not step.flag("is_in_range"):
+        return f"{step.fragment_name}: out of depth range, so it is not shaded."
+    if step.flag("casts_rays"):
+        return f"{text}; its ray has met something as near or nearer before."
+    if math.isnan(stored) or math.isnan(before):
+        return f"{text}; the early depth test has dropped it."
+    new, old = pair_text(stored, before)
+    word, relation = ("larger", ">") if step.flag("larger_is_nearer") else ("smaller", "<")
+    test = named(below("d", "new"), stored).compared(relation, named(below("d", "buffer"), before))
+    return (
+        f"{text}; its depth {new} is not {word} than the {old} of the depth buffer.",
+        formula_of(concludes("shaded", "not shaded", test)),
+    )
+
+
+shows(
+    "shade.skipped",
+    {
+        "stored": VariableText("d new", "What the depth format stores of the fragment."),
+        "before": VariableText("d buffer", "What the depth buffer held."),
+    },
+)
