@@ -277,8 +277,9 @@ COMPANIONS: dict[str, type[Companion]] = {
     **dict.fromkeys(("cull", "clip", "raster"), FillingTable),
     "shade": TextureBeside,
     "depth": NewDepths,
+    "order": FillingTable,
 }
-"""By stage."""
+"""By stage; ``order`` takes the place of ``depth`` where the drawing order has rows and a table of its own."""
 
 
 def new_depths(moment: Moment, stage: StageTrace, row: int) -> GridBuffer:
@@ -286,7 +287,8 @@ def new_depths(moment: Moment, stage: StageTrace, row: int) -> GridBuffer:
     raster = moment.trace.source.raster
     values, known = np.zeros(raster.shape), np.zeros(raster.shape, bool)
     if row >= 0:
-        rows = np.flatnonzero(stage.triangle[: row + 1] == stage.triangle[row])
+        is_own = (stage.triangle[: row + 1] == stage.triangle[row]) & (stage.pixel[: row + 1, 0] >= 0)
+        rows = np.flatnonzero(is_own)
         place = raster.index(*stage.pixel[rows].T)
         values.ravel()[place], known.ravel()[place] = stage.columns["stored"][rows], True
     track = next(track for track in stage.buffers if track.name == "depth")

@@ -77,10 +77,18 @@ class VisibilityTask(SeenTask):
             "depths and span ends": computed + lines.get("span ends sorted", 0),
             "hits compared": compared if casts_rays else 0,
             "rays times triangles": SIZE[0] * SIZE[1] * len(self._clip) if casts_rays else 0,
-            "triangles sorted": 0
-            if order.uses_depth_test or settings.visibility == "last-drawn"
-            else len(self._clip),
+            "triangles sorted": len(self._clip) if settings.visibility == "painters" else 0,
+            **self._counts_of_tree(settings),
         }
+
+    def _counts_of_tree(self, settings: Settings) -> dict[str, int]:
+        """Return how often a BSP tree tests a piece against a plane, and the pieces that it cuts."""
+        if settings.visibility != "bsp":
+            return {"plane tests": 0, "pieces": 0}
+        from core.visibility.bsp import build_tree
+
+        tree = build_tree(self._clip)
+        return {"plane tests": len(tree.side), "pieces": len(tree.drawn)}
 
 
 def make_visibility(assignment: Assignment) -> VisibilityTask:

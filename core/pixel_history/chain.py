@@ -9,9 +9,10 @@ from core.coverage.active_edges import edge_table, find_crossings
 from core.coverage.edges import EdgeFunctions
 from core.coverage.pixel_runs import INSIDE, MIXED, OUTSIDE, Boxes
 from core.coverage.snapping import SUBPIXELS, place_corners
-from core.culling.culling import PLANES, REASONS
+from core.culling.culling import PLANES, REASONS, plane_distances
 from core.pixel_history.candidates import EdgeTests, PixelCandidates, examine_edges
 from core.pixel_history.fragments import Link
+from core.pixel_history.pieces import piece_number
 from core.records.arrays import Floats, Integers
 from core.records.primitives import Rings
 from core.resolved import resolve
@@ -41,15 +42,19 @@ def cull_link(candidates: PixelCandidates, triangle: int, tests: dict[str, Any] 
     return Link("cull", REASONS[int(culled.verdict[triangle])], values | (tests or {}))
 
 
-def clip_link(candidates: PixelCandidates, triangle: int, piece: int = -1) -> Link:
+def clip_link(candidates: PixelCandidates, triangle: int, primitive: int = -1) -> Link:
     """Return what clipping did: which corners lie outside which planes, and how many corners are left."""
     geometry = candidates.geometry
     clipped = geometry.clipped
+    cut = {"tree_piece": piece_number(geometry, primitive) if primitive >= 0 else 0}
     is_spared = geometry.clipping_inserted and (geometry.assembled.clip[triangle, :, 3] > 0).all()
     if clipped is None or is_spared:
-        return Link("clip", "no-clipping", {})
-    place = int(np.flatnonzero(geometry.kept.triangle == triangle)[0])
-    distances = geometry.culled.distances[triangle]
+        return Link("clip", "no-clipping", cut)
+    place, piece = int(np.flatnonzero(geometry.kept.triangle == triangle)[0]), -1
+    if primitive >= 0:
+        place = int(geometry.kept_of_primitive[primitive])
+        piece = primitive - int(np.searchsorted(geometry.kept_of_primitive, place))
+    distances = plane_distances(geometry.kept.clip_of(np.array([place])))[0]
     outside = tuple(
         (PLANES[plane], tuple(int(k) for k in np.flatnonzero(distances[:, plane] < 0)))
         for plane in clipped.planes
@@ -64,6 +69,7 @@ def clip_link(candidates: PixelCandidates, triangle: int, piece: int = -1) -> Li
         "piece_count": max(count - 2, 0),
         "inserted_for": geometry.clipping_inserted,
         "division": _division(clipped, which, geometry.assembled.clip[triangle, :, 3]),
+        **cut,
     }
     key = "inside" if not len(which) else "clipped-away" if count < 3 else "clipped"
     return Link("clip", key, values)

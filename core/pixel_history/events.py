@@ -139,16 +139,20 @@ class _Rank:
 
     Notes
     -----
-    Under the painter's algorithm culled triangles are never sorted: they stand before the others.
+    Under the painter's algorithm culled triangles are never sorted: they stand before the others. So do they where the
+    order cuts triangles, whose pieces are drawn in several turns.
     """
 
     def __init__(self, candidates: PixelCandidates) -> None:
         self._order = candidates.geometry.kept.triangle
         self._is_rising = bool((np.diff(self._order) > 0).all())
+        self._is_cut = candidates.geometry.kept_pieces is not None
 
     def __call__(self, event: PixelEvent) -> tuple[int, int]:
         if self._is_rising:
             return event.triangle, event.primitive
+        if self._is_cut:
+            return event.primitive, 0
         place = np.flatnonzero(self._order == event.triangle)
         return (int(place[0]) if len(place) else -1), event.primitive
 
@@ -213,12 +217,10 @@ def _upper_chain(candidates: PixelCandidates, which: int) -> list[Link]:
     if candidates.scene.corner_count == 0:
         return []
     triangle = int(candidates.triangle[which])
-    first = int(np.flatnonzero(candidates.geometry.primitives.triangle == triangle)[0])
-    piece = int(candidates.primitive[which]) - first
     return [
         vertex_link(candidates, triangle),
         cull_link(candidates, triangle),
-        clip_link(candidates, triangle, piece),
+        clip_link(candidates, triangle, int(candidates.primitive[which])),
     ]
 
 

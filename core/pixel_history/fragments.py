@@ -16,6 +16,7 @@ from core.depth.depth import DepthFormat, stack_fragments
 from core.framebuffer.blending import blend_traits
 from core.lines.wireframe_fragments import weigh_alpha, writes_depth
 from core.pixel_history.candidates import PixelCandidates, check_pixel, whole_geometry
+from core.pixel_history.pieces import painted_over
 from core.records.arrays import Flags, Floats, Integers, Singles, read_only
 from core.records.frame import StageCount
 from core.resolved import resolve
@@ -225,7 +226,7 @@ def fold(fragments: PixelFragments, start: PixelState, candidates: PixelCandidat
     """Lay the fragments into the buffers one by one."""
     rule = resolve(candidates.settings).blend_method.function
     tested = candidates.geometry.uses_depth_test
-    state = start
+    state, below = start, -1
     passages = []
     for k in range(len(fragments.primitive)):
         offered = fragments.source[k : k + 1]
@@ -238,7 +239,11 @@ def fold(fragments: PixelFragments, start: PixelState, candidates: PixelCandidat
             kept = out if fragments.writes[k] else state
             after = PixelState(read_only(blended[0]), kept.depth, kept.triangle)
         link = _depth_link(fragments, k, state.triangle, tested)
+        if link.key == "not-tested" and below >= 0:
+            link = _painted_link(candidates, link, int(fragments.primitive[k]), below)
         passages.append(Passage(state, out, after, link, bool(fragments.passes[k])))
+        if fragments.passes[k] and fragments.writes[k]:
+            below = int(fragments.primitive[k])
         state = after
     return passages
 
@@ -270,6 +275,12 @@ def _depth_link(fragments: PixelFragments, k: int, holder: int, tested: bool) ->
     else:
         key = "tied" if stored == before else "undefined" if np.isnan(stored) else "failed"
     return Link("depth", key, values)
+
+
+def _painted_link(candidates: PixelCandidates, link: Link, primitive: int, below: int) -> Link:
+    """Say why a primitive is painted over the one ``below``, where a tree has put them in order."""
+    why = painted_over(candidates, primitive, below)
+    return link if why is None else Link("depth", "painted-over", {**link.values, **why})
 
 
 def overwriters(fragments: PixelFragments, blend: str) -> list[int]:

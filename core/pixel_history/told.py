@@ -6,7 +6,7 @@ Every key has one sentence in a table; a number goes through the same text rules
 from core.explain.number_text import exact_text, pair_text, steps_apart
 from core.pixel_history.fragments import Link, PixelEvent, PixelHistory
 from core.pixel_history.told_coverage import COVERAGE, Sentence, Values, has_area
-from core.records.words import TRIANGLES, Nouns, counted, joined
+from core.records.words import TRIANGLES, Nouns, counted, joined, piece_name
 
 POLYGONS = {3: "a triangle", 4: "a quad", 5: "a pentagon", 6: "a hexagon"}
 
@@ -21,6 +21,8 @@ def event_title(event: PixelEvent, drawn: Nouns = TRIANGLES) -> str:
     if event.triangle < 0:
         return {"initial": "Initial value", "clear": "Clear"}[event.kind]
     clip, name = event.link("clip"), f"{drawn.one.capitalize()} {event.triangle}"
+    if clip is not None and clip.values.get("tree_piece"):
+        name = f"{name}, piece {clip.values['tree_piece']} of its cuts"
     if event.primitive >= 0 and clip is not None and clip.values.get("piece_count", 1) > 1:
         values = clip.values
         return f"{name}, piece {values['piece'] + 1} of {values['piece_count']}"
@@ -138,6 +140,18 @@ def _against(values: Values) -> str:
     return f"{holder} ({exact_text(values['before'])})"
 
 
+def _painted_over(values: Values) -> str:
+    one = values["drawn"].one
+    below, plane = (piece_name(one, *values[name]) for name in ("below", "plane"))
+    because = {
+        "apart": f"it lies on the eye's side of the plane of {plane}, which parts the two",
+        "other": f"it lies on the eye's side of the plane of {plane}",
+        "own": f"that lies on the other side of the plane of {plane} than the eye",
+        "level": "both lie in one plane, of which the first is drawn last",
+    }
+    return f"painted over {below}: {because[values['how']]}"
+
+
 def _holder(values: Values) -> str:
     return "all others so far" if values["against"] < 0 else _name(values, "against")
 
@@ -251,6 +265,7 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
         f"in its segment of the row {_holder(v)} is nearer, compared exactly"
     ),
     ("depth", "scan-tied"): lambda v: f"exactly as near as {_holder(v)}, and a tie keeps what is drawn first",
+    ("depth", "painted-over"): _painted_over,
     ("depth", "not-tested"): lambda v: f"depth {exact_text(v['stored'])} stored without a test",
     ("depth", "before-near"): lambda v: (
         f"in front of the near plane: depth {exact_text(v['depth'])} is below 0"

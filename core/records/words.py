@@ -23,6 +23,11 @@ def counted(count: int, noun: str, plural: str = "") -> str:
     return f"{count:,} {noun_of(count, noun, plural)}"
 
 
+def piece_name(one: str, number: int, piece: int) -> str:
+    """Return what a piece is called: ``triangle 1`` as a whole (0), or ``piece 2 of triangle 1``."""
+    return f"piece {piece} of {one} {number}" if piece > 0 else f"{one} {number}"
+
+
 def numbered(noun: str, numbers: Sequence[int]) -> str:
     """Write a noun and the numbers of what it means: ``edge 0``, ``edges 0 and 2``."""
     return f"{noun_of(len(numbers), noun)} {joined([str(number) for number in numbers])}"

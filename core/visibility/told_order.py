@@ -5,7 +5,7 @@ from core.explain.number_text import exact_text, full_text, spoken
 from core.explain.records import Asked, choice
 from core.explain.step_tables import cell_texts, tabulates
 from core.explain.step_values import Said, StepValues, explains
-from core.explain.steps import VariableText, shows
+from core.explain.steps import VariableText, hides, shows
 from core.records.arrays import Integers
 from core.records.steps import Level, StepTable, TableCell, TableColumn
 from core.records.words import joined, nouns
@@ -18,11 +18,12 @@ shows(
     {
         "depths": VariableText("corner depths", "Depth of each corner along the view.", spread="parts"),
         "distance": VariableText("D", "Sum of the corners' depths, three times their mean."),
-        "other": VariableText("before it", "The one that stands just before it in the order so far."),
+        "other": VariableText("before it", "The triangle just before it in the order so far."),
         "other_distance": VariableText("D before", "The sum of that one's depths.", "other"),
         "place": VariableText("place", "Place in the drawing order, counted from 0."),
     },
 )
+hides(f"depth.{'|'.join(SORT_OPERATIONS)}", ("column", "row"))
 
 
 def _depth(step: StepValues) -> str:

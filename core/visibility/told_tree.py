@@ -7,10 +7,10 @@ from core.explain.number_text import vector_text
 from core.explain.records import Asked, choice
 from core.explain.step_tables import NONE, cell_texts, tabulates
 from core.explain.step_values import Said, StepValues, explains
-from core.explain.steps import VariableText, shows
+from core.explain.steps import VariableText, hides, shows
 from core.records.arrays import Integers
 from core.records.steps import Level, StepTable, TableCell, TableColumn
-from core.records.words import counted
+from core.records.words import counted, nouns, piece_name
 from core.trace import StageTrace
 from core.visibility.bsp import BspTree
 from core.visibility.traced_order import TREE_OPERATIONS
@@ -26,6 +26,7 @@ shows(
         )
     },
 )
+hides(f"depth.{'|'.join(TREE_OPERATIONS)}", ("column", "row"))
 shows(
     "depth",
     {
@@ -40,17 +41,14 @@ shows(
 )
 
 
-def piece_name(triangle: int, number: int) -> str:
-    """Return what a piece is called: ``triangle 1`` as a whole, or ``piece 2 of triangle 1``."""
-    return f"piece {number} of triangle {triangle}" if number > 0 else f"triangle {triangle}"
-
-
 def _piece(step: StepValues) -> str:
-    return piece_name(step.triangle, step.whole("piece_number"))
+    return piece_name(step.nouns.one, step.triangle, step.whole("piece_number"))
 
 
 def _plane(step: StepValues) -> str:
-    return f"the plane of {piece_name(step.whole('root_triangle'), step.whole('root_number'))}"
+    return (
+        f"the plane of {piece_name(step.nouns.one, step.whole('root_triangle'), step.whole('root_number'))}"
+    )
 
 
 @explains("depth.flat.first")
@@ -105,12 +103,12 @@ def distances(step: StepValues) -> Said:
 def side(step: StepValues) -> Said:
     """On which side it lies, and where it goes."""
     because = {
-        "on": "All three distances are 0: it lies in the plane and stays in this node.",
-        "front": "No distance is negative: it goes to the front half.",
-        "back": "No distance is positive: it goes to the back half.",
-        "cut": "Distances have both signs: the plane cuts it.",
+        "on": "all three distances are 0, so it lies in the plane and stays in this node.",
+        "front": "no distance is negative, so it goes to the front half.",
+        "back": "no distance is positive, so it goes to the back half.",
+        "cut": "distances have both signs, so the plane cuts it.",
     }
-    return because[step.kind]
+    return f"{_piece(step).capitalize()}: {because[step.kind]}"
 
 
 @explains("depth.cut.share")
@@ -212,7 +210,11 @@ def tree_table(trace: StageTrace, rows: Integers, position: int) -> StepTable:
         if current >= 0 and current <= rows[-1] and node == columns["node"][current]:
             here = len(labels)
         half = ("", "front: ", "back: ")[int(columns["half"][row]) + 1]
-        name = piece_name(int(columns["root_triangle"][row]), int(columns["root_number"][row]))
+        name = piece_name(
+            nouns(trace.corner_count).one,
+            int(columns["root_triangle"][row]),
+            int(columns["root_number"][row]),
+        )
         labels.append("\u2003" * int(tree.depth[node]) + half + name)
         at = steps.position_after(row)
         made = [_cell(int(columns[key][row]), at) if position >= at else None for key in ("tested", "cuts")]

@@ -7,6 +7,7 @@ from lessons.mistakes import (
     coverage,
     depths,
     fragments,
+    planes,
     scan_conversion,
     shaders,
     smoothing,
@@ -38,6 +39,7 @@ RULES: dict[str, WrongRule] = {
         scan_conversion,
         surfaces,
         depths,
+        planes,
         smoothing,
     )
     for rule in module.RULES

@@ -204,7 +204,7 @@ class MainArea(QWidget):
     def _has_two_sides(self) -> bool:
         """Return whether the stage is shown in its own view, with another side, in an area wide enough for both."""
         stage = self._moment.cursor.stage
-        companion = self.companions.get(stage)
+        companion = self._companion()
         is_own = self.current_view() == self._own_view(stage)
         if companion is None or not is_own or not companion.is_wanted(self._moment):
             return False
@@ -212,6 +212,13 @@ class MainArea(QWidget):
             return False
         room = max(self.width(), self.height()) if self._are_stacked(companion) else self.width()
         return room >= LEAST_ROOM_OF_BOTH * current_theme().text_px
+
+    def _companion(self) -> Companion | None:
+        """Return what stands beside the stage's own view."""
+        stage = self._moment.cursor.stage
+        if stage == "depth" and self.companions["order"].is_wanted(self._moment):
+            return self.companions["order"]
+        return self.companions.get(stage)
 
     def _needs_all_the_room(self) -> bool:
         """Return whether a hall can read the values in the cells only where the picture stands alone."""
@@ -254,7 +261,8 @@ class MainArea(QWidget):
             self.beside.hide()
             self._main_title.hide()
             return
-        companion = self.companions[self._moment.cursor.stage]
+        companion = self._companion()
+        assert companion is not None
         is_stacked = self._are_stacked(companion)
         self._sides.setDirection(
             QBoxLayout.Direction.TopToBottom if is_stacked else QBoxLayout.Direction.LeftToRight

@@ -44,6 +44,7 @@ PHRASES = {
         "z-buffer": "the z-buffer",
         "last-drawn": "drawing without a depth test",
         "painters": "the painter's algorithm",
+        "bsp": "the painter's algorithm with a BSP tree",
     },
     "depth": {
         "z-16": "depth in 16 bits",

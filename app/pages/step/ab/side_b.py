@@ -55,13 +55,18 @@ AS_PRINTED = "-lecture"
 
 
 def counterparts(settings: Settings, stage: str) -> Iterator[tuple[str, str]]:
-    """Yield families and methods that stand against what is chosen at a stage: the right one against one as printed."""
+    """Yield families and methods that stand against what is chosen at a stage.
+
+    They are the right one against one as printed, and a tree against a sort.
+    """
     chosen = {
         name: of for name, of in Settings().differences(settings).items() if FAMILIES[name].stage == stage
     }
     for family, method in chosen.items():
         if isinstance(method, str) and method.endswith(AS_PRINTED):
             yield family, method.removesuffix(AS_PRINTED)
+    if chosen.get("visibility") == "painters":
+        yield "visibility", "bsp"
     for family in filter(chosen.__contains__, LINES):
         yield from ((family, method) for method in FAMILIES[family].classical)
 

@@ -1,0 +1,91 @@
+"""Mistakes of the order of drawing: sorting after the division, cutting by planes, walking a tree."""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import NamedTuple
+
+from lessons.mistakes.twin import WrongRule
+
+
+class Node(NamedTuple):
+    """A node of a tree of planes, by its name, with its halves; ``None``: nothing is there."""
+
+    name: str
+    eye_in_front: bool
+    front: "Node | None" = None
+    back: "Node | None" = None
+
+
+def painted_back_to_front(node: Node | None) -> tuple[str, ...]:
+    """Return the names from the first painted to the last: the half without the eye, the node, the half with it."""
+    if node is None:
+        return ()
+    near, far = (node.front, node.back) if node.eye_in_front else (node.back, node.front)
+    return (*painted_back_to_front(far), node.name, *painted_back_to_front(near))
+
+
+def painted_front_to_back(node: Node | None) -> tuple[str, ...]:
+    """Paint the half with the eye first."""
+    return painted_back_to_front(node)[::-1]
+
+
+def sorted_far_to_near(corners: Sequence[Sequence[int]], near: int, far: int) -> tuple[int, ...]:
+    """Return the triangles by the mean distance of their corners along the view, far ones first."""
+    return tuple(sorted(range(len(corners)), key=lambda k: -sum(corners[k])))
+
+
+def sorted_after_division(corners: Sequence[Sequence[int]], near: int, far: int) -> tuple[int, ...]:
+    """Sort by the mean of the window depths, which a corner behind the eye has beyond the far plane."""
+
+    def depth(distance: int) -> Fraction:
+        return Fraction(far * (distance - near), distance * (far - near))
+
+    return tuple(sorted(range(len(corners)), key=lambda k: -sum(depth(distance) for distance in corners[k])))
+
+
+def pieces_of_a_cut(distances: Sequence[int]) -> tuple[int, int]:
+    """Return how many triangles lie on the front and the back side of a plane, by the distances of three corners."""
+    counts = []
+    for sign in (1, -1):
+        inside = [sign * d > 0 for d in distances]
+        touching = sum(d == 0 for d in distances)
+        crossing = sum(inside[k] and sign * distances[k - 1] < 0 for k in range(3))
+        crossing += sum(inside[k - 1] and sign * distances[k] < 0 for k in range(3))
+        corners = sum(inside) + touching + crossing
+        counts.append(max(corners - 2, 0) if any(inside) else 0)
+    return counts[0], counts[1]
+
+
+def pieces_without_zero(distances: Sequence[int]) -> tuple[int, int]:
+    """Count a corner in the plane as one behind it."""
+    return pieces_of_a_cut([d or -1 for d in distances])
+
+
+_SMALL = Node("A", True, Node("B", True), Node("C", False))
+
+RULES = (
+    WrongRule(
+        "front-and-back-swapped",
+        "The half with the eye was painted first. Paint the half without the eye first: it can hide nothing.",
+        painted_back_to_front,
+        painted_front_to_back,
+        (_SMALL,),
+        (Node("A", True),),
+    ),
+    WrongRule(
+        "sorted-after-division",
+        "Depths were compared after the division, which puts a corner behind the eye beyond all others. Sort by w.",
+        sorted_far_to_near,
+        sorted_after_division,
+        (((2, 2, -1), (3, 3, 3)), 1, 9),
+        (((2, 2, 2), (3, 3, 3)), 1, 9),
+    ),
+    WrongRule(
+        "corner-in-plane-cuts",
+        "A corner in the plane was counted as one behind it, so that a triangle that only touches the plane was cut.",
+        pieces_of_a_cut,
+        pieces_without_zero,
+        ((0, 2, 3),),
+        ((-1, 2, 3),),
+    ),
+)
