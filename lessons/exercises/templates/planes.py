@@ -64,8 +64,8 @@ def draw_cut(draws: Draws) -> Draft:
         corners is two triangles.
         Hint: A side is cut only where its two ends have different signs.
         Hint: A corner with distance 0 lies in the plane: no cut is needed there.
-        Hint: Corner {touching} has d{touching} = 0: it belongs to both sides. Count the corners on each: three make
-        one triangle, four make two, and fewer make none."""
+        Hint: With {d}, corner {touching} belongs to both sides. Count the corners on each: three make one
+        triangle, four make two, and fewer make none."""
     return by_rule(asked, d, (distances,), ("corner-in-plane-cuts",), ("front", "back"))
 
 
