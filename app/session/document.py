@@ -41,6 +41,10 @@ DRAWN_TRIANGLE, DRAWN_VERTEX = 1_200, 1_000
 """Bytes that a triangle, and a vertex, takes once it is drawn on the grid and in the 3D view (measured)."""
 TESTS_PER_SECOND = 2_000_000
 EXACT_TESTS_PER_SECOND = 250_000
+CUT_PER_SECOND = 10_000
+"""Pairs of triangles that a BSP tree is built of in a second, where all cross."""
+LONGEST_TREE = 3.0
+"""Seconds that a BSP tree takes before it is refused."""
 TRIANGLES_PER_SECOND = 600_000
 STATEMENTS_PER_SECOND = 400_000
 """How fast pixels are traced, triangles transformed and shaders stepped, roughly: the slow runs off the GUI thread."""
@@ -137,8 +141,13 @@ class Document:
         tests_per_second = EXACT_TESTS_PER_SECOND if is_exact else TESTS_PER_SECOND
         program = self.scene.program
         statements = 0 if program is None else self.most_tests * program.shaders[1].weight
+        # A tree of triangles that cross has nearly as many pieces as the square of their number, up to its limit.
+        tree = min(self.triangle_count**2 / CUT_PER_SECOND, LONGEST_TREE) * (
+            self.settings.visibility == "bsp"
+        )
         return (
-            drawn / TRIANGLES_PER_SECOND
+            tree
+            + drawn / TRIANGLES_PER_SECOND
             + self.most_tests / tests_per_second
             + statements / STATEMENTS_PER_SECOND
         )

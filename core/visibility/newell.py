@@ -115,11 +115,11 @@ def _left_of(polygon: list[Floats], start: Floats, along: Floats) -> list[Floats
     away = [along[0] * (y - start[1]) - along[1] * (x - start[0]) for x, y in polygon]
     found = []
     for k, (here, d) in enumerate(zip(polygon, away, strict=True)):
-        if d >= 0:
-            found.append(here)
         before = away[k - 1]
         if min(d, before) < 0 < max(d, before):
             found.append(polygon[k - 1] + before / (before - d) * (here - polygon[k - 1]))
+        if d >= 0:
+            found.append(here)
     return found
 
 
