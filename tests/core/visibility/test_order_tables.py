@@ -1,4 +1,4 @@
-"""What is said of the order of drawing: Newell's tests against pictures, and the tables beside the sort and the tree."""
+"""What is said of the order of drawing: Newell's tests against pictures, and the tables of sort and tree."""
 
 import numpy as np
 import pytest
