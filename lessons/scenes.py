@@ -157,6 +157,14 @@ def intersecting() -> ClipScene:
     return ClipScene(np.stack([rising, falling]), colors, size)
 
 
+def four_layers() -> ClipScene:
+    """Four layers over the whole picture, drawn from near to far: an early depth test shades the first one alone."""
+    size = (32, 24)
+    layers = [window_triangle([0, 64, 0], [0, 0, 48], [z] * 3, [1, 1, 1], size) for z in (0.3, 0.5, 0.7, 0.9)]
+    colors = np.stack([np.tile(linear_color(color), (3, 1)) for color in FACE_COLORS[:4]])
+    return ClipScene(np.stack(layers), colors, size)
+
+
 CATALOGUE = (
     BuiltInScene(
         "single-triangle",
@@ -296,6 +304,14 @@ CATALOGUE = (
         "Two triangles of whole-number depths meet a buffer of infinities: type the cells, and step the depth test.",
         two_triangles,
         RunPlace("depth", "covered"),
+    ),
+    BuiltInScene(
+        "four-layers",
+        "Four layers, near to far",
+        "Four layers cover every pixel: tested before it is shaded, three of four fragments need no shading.",
+        four_layers,
+        RunPlace("shade", 'kind == "skipped"'),
+        {"depth_test_time": "early"},
     ),
     BuiltInScene(
         "z-fighting",

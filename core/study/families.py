@@ -7,6 +7,7 @@ by itself; a better one is added here.
 from core.antialiasing.measured import ANTIALIASING, SHADING, TEXTURE_FILTER
 from core.coverage.measured import COVERAGE, FILL, ORIENTATION, POLYGON_CLIPPING, POLYGON_FILL
 from core.depth.measured import DEPTH_STEPS
+from core.depth.measured_early import DEPTH_TEST_TIME
 from core.depth.measured_order import CLIPPING, CULL, DEPTH, VISIBILITY
 from core.interpolation.measured import INTERPOLATION
 from core.lines.measured import LINE
@@ -32,6 +33,7 @@ OWN = (
     ANTIALIASING,
     SHADING,
     VISIBILITY,
+    DEPTH_TEST_TIME,
     CULL,
 )
 """Studies with work and references of their own; those whose family is not in the table yet are not shown."""

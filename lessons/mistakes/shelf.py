@@ -13,6 +13,7 @@ from lessons.mistakes import (
     smoothing,
     surfaces,
     transforms,
+    visible_work,
 )
 from lessons.mistakes.shaders import ShaderMistake
 from lessons.mistakes.twin import Twin, WrongRule
@@ -41,6 +42,7 @@ RULES: dict[str, WrongRule] = {
         depths,
         planes,
         smoothing,
+        visible_work,
     )
     for rule in module.RULES
 }

@@ -105,6 +105,10 @@ CLAIMS = {
         unlike(s, visibility="ray-casting") == 8 and len(s.run.stage("depth").extra["sorted"].pairs) == 3
     ),
     "depth-table": lambda s: is_clear_of(s, np.inf),
+    "four-layers": lambda s: (
+        not unlike(s, depth_test_time="late")
+        and np.sum(s.run.stage("shade").marks["depth-failed"]) == 3 * 768
+    ),
     "z-fighting": lambda s: unlike(s, depth="z-24") > 300 and unlike(s, depth="z-16") == 0,
     "textured-floor": lambda s: unlike(s, interpolation="affine") > 1000,
     "lit-floor": lambda s: (brightest(s), brightest(s, shading="gouraud")) == (0.787, 0.221),

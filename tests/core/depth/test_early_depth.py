@@ -11,9 +11,11 @@ from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render, trace
 from core.depth.early_depth import mean_shaded, shade_if_passed, shade_then_test
+from core.depth.measured_early import make_layers
 from core.methods import table
 from core.pixel_history import why
 from core.settings import no_effect
+from core.study.family import Assignment
 from core.trace import TraceSource
 from tests.core.strategies import perspective_triangles
 from tests.core.trace.trace_cases import SCENES
@@ -132,6 +134,15 @@ def test_the_history_of_a_pixel_says_what_was_not_shaded() -> None:
     }
     assert keys[0] == ["color"]
     assert keys[1] == ["not-shaded"]
+
+
+def test_the_chart_counts_what_each_order_shades() -> None:
+    def count(work: str, settings: Settings) -> int:
+        task = make_layers(Assignment(work, {"layers": 4}, 3, settings))
+        return task.counts(settings, render(task.scene, settings))["fragments shaded"]
+
+    assert [count(work, LATE) for work in ("near-to-far", "random", "far-to-near")] == [3072] * 3
+    assert count("near-to-far", EARLY) == 768 <= count("random", EARLY) <= count("far-to-near", EARLY) == 3072
 
 
 @given(st.permutations([0.1, 0.3, 0.5, 0.7, 0.9]))

@@ -186,6 +186,17 @@ def test_shading() -> None:
     assert error["phong"] < error["gouraud"] < error["flat"] < error["unlit"]
 
 
+def test_depth_test_time() -> None:
+    # Of n full layers the late test shades all; the early one shades as often as the nearest depth falls: once from
+    # near to far, n times from far to near. The picture is right either way.
+    pixels, layers = 32 * 24, 8
+    for work, early in (("near-to-far", pixels), ("far-to-near", layers * pixels)):
+        found = run("depth_test_time", work, layers=layers)
+        assert found["late"].counts["fragments shaded"] == layers * pixels
+        assert found["early"].counts["fragments shaded"] == early
+        assert {point.errors["wrong-visible"] for point in found.values()} == {0}
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_visibility(seed: int) -> None:
     # Ray casting compares exactly, on the pixels that every method covers: nothing can be wrong. Its loop over rays and

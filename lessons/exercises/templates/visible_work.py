@@ -1,0 +1,36 @@
+"""The work for hidden surfaces: what an early depth test shades, and what rays ask pixel by pixel."""
+
+from lessons.exercises.drafting import by_rule
+from lessons.exercises.numbers import Draws, reject
+from lessons.exercises.question import Draft, template
+from lessons.mistakes.visible_work import shaded_early
+
+
+@template("early-shaded", 1, "Shaded with early z", "depth", 3)
+def draw_early_shaded(draws: Draws) -> Draft:
+    """Fragments of one pixel that are shaded with the early depth test."""
+    depths = tuple(draws.shuffled(range(1, 10))[:6])
+    reject(not 1 < shaded_early(depths)[0] < 6)
+    asked = f"""Opaque fragments with these depths arrive at one pixel, in this order. Smaller is nearer, and the
+        depth buffer begins at infinity. How many are shaded, if depth is tested before shading (early z)?
+        Hint: A fragment is shaded if it passes.
+        Hint: Compare with the nearest depth so far, not with the last one.
+        Hint: The first passes. The second is shaded only if {depths[1]} < {depths[0]}."""
+    given = f"Depths: {', '.join(map(str, depths))}"
+    mistakes = ("early-only-visible", "early-against-previous", "early-shades-all")
+    return by_rule(asked, given, (depths,), mistakes)
+
+
+@template("ray-tests", 1, "What rays ask", "depth", 2)
+def draw_ray_tests(draws: Draws) -> Draft:
+    """How often rays ask each triangle, and all of them."""
+    width, height = draws.item((4, 8, 16, 32)), draws.item((3, 6, 12, 24))
+    triangles = draws.whole(2, 9)
+    asked = f"""Rays are cast pixel by pixel, without a tree of boxes. No triangle is culled. By how many rays is each
+        triangle asked, and how many tests of a ray with a triangle are there in all?
+        Hint: There is one ray for each pixel.
+        Hint: A ray knows the nearest hit only after it has asked all triangles.
+        Hint: There are {width} * {height} rays."""
+    given = f"Picture: {width} x {height} pixels\nTriangles: {triangles}"
+    mistakes = ("ray-loops-swapped", "ray-asks-one")
+    return by_rule(asked, given, (width, height, triangles), mistakes, ("rays that ask a triangle", "tests"))
