@@ -17,7 +17,8 @@ SCHEME = "help"
 """Of addresses of pages; those of any other scheme do something."""
 HOME = "home"
 FIND = "find/"
-LINK = re.compile('href="([^"]+)"')
+LINK = re.compile('href="((?!do:action/)[^"]+)"')
+"""Of what is found, but for actions: these are done only where they are clicked."""
 Body = tuple[str, str]
 """Title and HTML of a page."""
 

@@ -18,7 +18,7 @@ from widgets.grid.layers import GridBuffer
 # Colour tables: viridis and cividis for scalars, diverging for signed errors, distinct colours for ids.
 
 
-COLORMAPS = ("viridis", "cividis", "diverging", "grey")
+COLORMAPS = ("viridis", "cividis", "diverging", "diverging-dark", "grey")
 """Names that :func:`colormap_table` knows."""
 
 ID_COLORS = ("#CC79A7", "#56B4E9", "#F0E442", "#D55E00")
@@ -26,6 +26,8 @@ ID_COLORS = ("#CC79A7", "#56B4E9", "#F0E442", "#D55E00")
 
 _DIVERGING = ("#40004b", "#7b4f96", "#c2a5cf", "#ffffff", "#dfb36a", "#a86a12", "#5a3000")
 """Purple to white to brown: apart for every kind of colour vision, and none of the three vertex colours."""
+_DIVERGING_DARK = ("#e6c8f5", "#a678c4", "#5a3470", "#121415", "#6b4510", "#c08a3c", "#fbd79a")
+"""The same on a dark page: a difference of 0 does not glare."""
 
 
 @cache
@@ -41,7 +43,7 @@ def colormap_table(name: str) -> NDArray[np.uint8]:
     -------
     (N, 3) uint8 array
         sRGB from the lowest value to the highest, read-only. N is 256; 255 for ``diverging``, whose middle
-        entry 127 is exactly white.
+        entry 127 is exactly white, and ``diverging-dark``, where it is nearly black.
 
     Raises
     ------
@@ -57,12 +59,19 @@ def colormap_table(name: str) -> NDArray[np.uint8]:
         table = np.repeat(np.arange(256, dtype=np.uint8)[:, None], 3, axis=1)
     elif name == "diverging":
         table = _through(_DIVERGING, 255)
+    elif name == "diverging-dark":
+        table = _through(_DIVERGING_DARK, 255)
     elif name in COLORMAPS:
         table = np.rint(255.0 * np.loadtxt(_table_file(name), delimiter=",", comments=";")).astype(np.uint8)
     else:
         raise ValueError(f"colormap must be one of {', '.join(COLORMAPS)}, got {name!r}")
     table.setflags(write=False)
     return table
+
+
+def colormap_on(name: str, theme: Theme) -> str:
+    """Return the colour table that stands for one of this name on the page of a theme."""
+    return "diverging-dark" if name == "diverging" and theme.is_dark else name
 
 
 def _table_file(name: str) -> Path:
@@ -171,7 +180,7 @@ def buffer_image(buffer: GridBuffer, theme: Theme) -> QImage:
     elif values.ndim == 3:
         pixels = _channel_pixels(values, value_range(buffer), theme)
     else:
-        pixels = _scalar_pixels(values, value_range(buffer), buffer.colormap, theme)
+        pixels = _scalar_pixels(values, value_range(buffer), colormap_on(buffer.colormap, theme), theme)
     if buffer.known is not None:
         pixels = np.where(buffer.known, pixels, _pack(np.array([theme.empty]))[0])
     return _to_image(pixels)

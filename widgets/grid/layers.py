@@ -37,7 +37,7 @@ class GridBuffer:
     """(H, W) or (H, W, C) array of bool, integers or floats; row 0 is the bottom row."""
     kind: BufferKind = "scalar"
     """scalar: a colormap over the range (C > 1: the first three channels as red, green, blue over the range).
-    signed: a diverging map with white at zero. color: linear floats, or uint8 that are sRGB already (C = 1,
+    signed: a diverging map, at zero as the page. color: linear floats, or uint8 that are sRGB already (C = 1,
     3, 4). weights: (H, W, 3), a mix of the colours of vertices 0, 1, 2. ids: distinct colours, negative is
     none. bool: empty or covered."""
     unit: str = ""

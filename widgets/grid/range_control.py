@@ -19,7 +19,7 @@ from PySide6.QtWidgets import QSizePolicy, QToolButton, QWidget
 
 from core.explain.number_text import parse_number
 from widgets.basics.controls import button_with_tip, row_layout
-from widgets.basics.image import colormap_table, fitted_range, value_range
+from widgets.basics.image import colormap_on, colormap_table, fitted_range, value_range
 from widgets.basics.theme import current_theme, text_font, theme_notifier
 from widgets.basics.typed_value import NumberEdit
 from widgets.grid.layers import GridBuffer, number_text
@@ -198,7 +198,7 @@ class Histogram(QWidget):
 
 def _band(name: str) -> QImage:
     """Return a colormap as an image of one row."""
-    table = np.ascontiguousarray(colormap_table(name))
+    table = np.ascontiguousarray(colormap_table(colormap_on(name, current_theme())))
     return QImage(table.data, len(table), 1, 3 * len(table), QImage.Format.Format_RGB888).copy()
 
 
@@ -402,6 +402,7 @@ class RangeButton(QToolButton):
             self._control.show_buffer(buffer)
 
     def _show_colors(self, colormap: str) -> None:
+        colormap = colormap_on(colormap, current_theme())
         if colormap == self._colormap:
             return
         self._colormap = colormap

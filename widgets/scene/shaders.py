@@ -43,7 +43,6 @@ class SourceEditor(QPlainTextEdit):
         self._name = name
         self._mark: tuple[int, int] | None = None
         self.setFrameShape(QFrame.Shape.NoFrame)
-        self.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         self.setAccessibleName(name)
         self._pause = QTimer(self, interval=PAUSE_MS, singleShot=True)
         self._pause.timeout.connect(self._settle)

@@ -60,8 +60,8 @@ COURSES = {
 }
 """Courses whose questions lessons answer, by how a lesson's file names them."""
 _COURSE = re.compile(rf"\b({'|'.join(COURSES)})(?:, ([^:?]*))?: ")
-_TOGETHER = re.compile(r"(?<=[\d,]) (?=-?[\d./]+\))| (?=[=<>≥≤≠])|(?<=[=<>≥≤≠]) ")
-"""Spaces at which no line ends: in ``(2, 1)`` and in ``E0 = 0``."""
+_TOGETHER = re.compile(r"(?<=\d,) (?=[-−]?[\d./]+[,)])| (?=[=<>≥≤≠·/] )|(?<= [=<>≥≤≠·/]) ")
+"""Spaces at which no line ends: in ``(2, 1, 0)``, ``8 · 4 / 2`` and in ``E0 = 0``."""
 
 
 def paragraphs(text: str | None) -> str:

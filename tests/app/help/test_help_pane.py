@@ -172,3 +172,13 @@ def test_presenting_puts_help_aside_and_brings_it_back(window: MainWindow) -> No
     window.presenter.presenting_changed.emit(True)
     window.presenter.presenting_changed.emit(False)
     assert not window.help.is_visible()
+
+
+def test_return_in_the_search_leads_to_a_page_and_does_nothing_else(window: MainWindow) -> None:
+    window.help.show_page("home")
+    search = window.help.view.search
+    for text in ("presenter", "pixel", "nothing of this"):
+        search.setText(text)
+        QTest.keyClick(search, Qt.Key.Key_Return)
+        assert window.help.is_visible()
+        assert not window.presenter.is_presenting

@@ -32,13 +32,14 @@ def test_sequential_maps_grow_lighter(name: str) -> None:
     assert light[-1] - light[0] > 150
 
 
-def test_diverging_is_white_in_the_middle_and_darker_outward() -> None:
-    table = colormap_table("diverging").astype(int)
+@pytest.mark.parametrize(("name", "middle", "outward"), [("diverging", 255, -1), ("diverging-dark", 18, 1)])
+def test_a_difference_of_zero_looks_like_the_page(name: str, middle: int, outward: int) -> None:
+    table = colormap_table(name).astype(int)
     assert len(table) == 255
-    assert table[127].tolist() == [255, 255, 255]
-    light = table.sum(axis=1)
-    assert (np.diff(light[:128]) >= 0).all()
-    assert (np.diff(light[127:]) <= 0).all()
+    assert table[127, 0] == middle
+    light = outward * table.sum(axis=1)
+    assert (np.diff(light[:128]) <= 0).all()
+    assert (np.diff(light[127:]) >= 0).all()
     assert abs(int(light[0]) - int(light[-1])) < 150
 
 
