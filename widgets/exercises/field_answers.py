@@ -59,7 +59,7 @@ class EntryGrid(QWidget):
             layout.addWidget(text_label(label, self), 1 + row, 0)
             for column, name in enumerate(columns):
                 field = NumberEdit(self)
-                field.setAccessibleName(" ".join(text for text in (name, label) if text))
+                field.setAccessibleName(" ".join(text for text in (name, label) if text) or "Answer")
                 field.setReadOnly(column in read_only)
                 field.setMaximumWidth(WIDEST if len(columns) == 1 else 16_777_215)
                 field.setFocusPolicy(

@@ -258,7 +258,11 @@ class LessonView(QWidget):
 
     def spoken_place(self) -> str:
         """Return title and step for a screen reader."""
-        return "" if self._record is None else f"{self._record.title}, step {self._record.place}"
+        record = self._record
+        if record is None:
+            return ""
+        is_step = 0 <= record.number < len(record.standings)
+        return f"{record.title}, {'step ' if is_step else ''}{record.place}"
 
     def _show_links(self, links: tuple[tuple[str, str], ...]) -> None:
         for old in self._link_buttons:

@@ -1,14 +1,16 @@
-"""A lesson is walked in large type in a small window: its buttons are always in sight, whatever has been scrolled."""
+"""A lesson is walked in large type in a small window: its buttons stay in sight, and what takes keys has a name."""
 
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from PySide6.QtGui import QAccessible
 from PySide6.QtWidgets import QApplication, QWidget
 
 from app.window.main_window import MainWindow
 from app.window.unattended import hidden_window, play
 from lessons.course.catalogue import shipped
+from widgets.basics.accessibility import tab_stops
 
 
 @pytest.fixture
@@ -26,11 +28,13 @@ def is_seen(widget: QWidget) -> bool:
 
 
 def test_the_buttons_of_a_lesson_stay_in_sight(window: MainWindow) -> None:
-    unseen, scrolled = [], []
+    unseen, scrolled, nameless = [], [], []
 
     def look(step: str) -> None:
         walk = window.page.lessons.walk
         assert walk is not None
+        stops = map(QAccessible.queryAccessibleInterface, tab_stops([walk.view]))
+        nameless.extend(step for stop in stops if not stop.text(QAccessible.Text.Name))
         bar, view = walk.task.scroll.verticalScrollBar(), walk.view
         scrolled.append(bar.maximum() > 0)
         for place in (bar.value(), bar.minimum(), bar.maximum()):
@@ -40,4 +44,4 @@ def test_the_buttons_of_a_lesson_stay_in_sight(window: MainWindow) -> None:
 
     play(window, shipped().lessons["shared-edges"], look)
     assert any(scrolled)
-    assert unseen == []
+    assert unseen == nameless == []
