@@ -116,6 +116,7 @@ class PixelAnswerView(AnswerView):
         self._grid.removeEventFilter(self)
         self._grid.pixels_painted.disconnect(self._painted)
         self._grid.set_paintable(False)
+        self._grid.show_marked(frozenset())
 
     def toggle_rows(self) -> None:
         """Show the rows, or fold them away."""

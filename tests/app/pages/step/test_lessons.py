@@ -23,6 +23,7 @@ from core.trace.tracers import trace_stage
 from lessons.attempts.record import Attempt
 from lessons.scene_edits import scene_digest
 from tests.lessons.course.lesson_texts import GOOD
+from widgets.exercises.picture_answers import PixelAnswerView
 from widgets.exercises.records import Standing
 from widgets.grid.display import GridDisplay
 from widgets.grid.layers import MaskOverlay
@@ -304,6 +305,19 @@ def test_pixels_are_marked_on_the_page_s_picture(window: MainWindow, qtbot: QtBo
     walk.next()
     settled(window, qtbot)
     assert window.page.main_view() is window.page.grid
+
+
+def test_a_question_asked_again_has_nothing_marked(window: MainWindow, qtbot: QtBot) -> None:
+    window.page.lessons.open("pixel-centres", 2)
+    walk = settled(window, qtbot)
+    walk.task.reveal()
+    settled(window, qtbot)
+    walk.return_here()
+    settled(window, qtbot)
+    form = walk.view.answer
+    assert isinstance(form, PixelAnswerView)
+    assert form.given() == []
+    assert form.count.text().startswith("0 ")
 
 
 def test_two_answers_look_alike(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
