@@ -44,14 +44,14 @@ class InspectorColumn(QTabWidget):
     picture its place; the listing moves only for a formula that is the tallest of its stage.
     """
 
-    formula_grown = Signal()
-    """The tallest formula of the stage so far is another one."""
+    step_grown = Signal()
+    """Sentence or formula need more room than any of the stage so far."""
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
         self._listing_lines = LISTING_LINES
-        self._width = self._tallest = 0
-        """Width of what is in the pane that scrolls, and height of the tallest formula of the stage so far."""
+        self._width = self._tallest = self._longest = 0
+        """Width of what is in the pane that scrolls, and heights of the stage's tallest formula and sentence so far."""
         self._is_presenting, self._is_card_wanted, self._folds_listing = False, True, False
         self._is_alone = False
         self._is_history_chosen = False
@@ -163,14 +163,17 @@ class InspectorColumn(QTabWidget):
     def show_formula(self, formula: Formula | None, is_new_stage: bool) -> None:
         """Show the formula of a step; one that is the tallest of its stage so far moves what is below."""
         self.formula.show_formula(formula)
+        self._longest = 0 if is_new_stage else self._longest
         self._make_room(0 if is_new_stage else self._tallest)
 
     def _make_room(self, least: int) -> None:
-        """Give the formula the height that it wants, but no less than ``least``."""
-        before, self._tallest = self._tallest, max(self._wanted_height(), least)
-        if self._tallest != before:
+        """Give sentence and formula the height that they want, but the formula no less than ``least``."""
+        before = self._tallest, self._longest
+        self._tallest = max(self._wanted_height(), least)
+        self._longest = max(self.sentence.heightForWidth(max(self._width, 1)), self._longest)
+        if (self._tallest, self._longest) != before:
             self.fit()
-            self.formula_grown.emit()
+            self.step_grown.emit()
 
     @Slot()
     def _make_room_for_typeset(self) -> None:
@@ -185,6 +188,7 @@ class InspectorColumn(QTabWidget):
         self.tabBar().setFont(
             text_font(current_theme())
         )  # Qt leaves it as it was while the column is hidden.
+        self._longest = 0
         self.fit()
         self._make_room(0)
 
@@ -193,7 +197,7 @@ class InspectorColumn(QTabWidget):
         """Keep room for the sentence, the tallest formula and some of the listing, in any type."""
         line = round(1.25 * current_theme().text_px)
         self.sentence.setMinimumHeight(SENTENCE_LINES * line)
-        told = 0 if self._is_alone else SENTENCE_LINES * line + 4
+        told = 0 if self._is_alone else max(SENTENCE_LINES * line, self._longest) + 4
         step, details = told + self._tallest, VARIABLE_LINES * (line + 6)
         if self._is_alone and self._wants_listing():
             step = details = 0
@@ -282,7 +286,7 @@ class SideColumn(QWidget):
         column_layout(self._below).addWidget(inspector)
         self._layout.addWidget(self._below, 1)
         inspector.installEventFilter(self)
-        inspector.formula_grown.connect(self._divide)
+        inspector.step_grown.connect(self._divide)
 
     def show_lesson(self, lesson: "LessonScroll | None") -> None:
         """Show the pane of a lesson above the inspector, or no longer."""
