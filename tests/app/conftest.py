@@ -61,6 +61,9 @@ def new_window(
 ) -> Iterator[MainWindow]:
     """Return a shown window of the test's own."""
     monkeypatch.setenv("RASTERSCOPE_CONFIG", str(tmp_path / "config"))
+    for other in qapp.topLevelWidgets():
+        if isinstance(other, MainWindow):
+            other.hide()  # that of the module would be styled and painted with this one
     with shown_window(qapp) as made:
         yield made
 
@@ -77,15 +80,11 @@ def window_of_module(
 
 @pytest.fixture
 def kept_window(window_of_module: tuple[MainWindow, State, Trace], qtbot: QtBot) -> Iterator[MainWindow]:
-    """Return the module's window, and bring it back to where it was but for what can be undone.
-
-    It is shown while a test runs only: it would be styled and painted with the windows of other tests.
-    """
+    """Return the module's window, and bring it back to where it was but for what can be undone."""
     made, before, trace = window_of_module
     to_the_desk(made)
     bring_forward(made)
     yield made
-    made.hide()
     to_the_desk(made)
     put_back(made, before, trace)
 
@@ -102,7 +101,6 @@ def presented(window_of_module: tuple[MainWindow, State, Trace], qtbot: QtBot) -
     made.page.main_view().setFocus()
     made.page.settle()
     yield made
-    made.hide()
     put_back(made, before, trace)
 
 

@@ -79,6 +79,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "config"
 
 
+@pytest.mark.slow
 def test_a_program_that_is_asked_to_end_saves_first_and_goes_on_at_the_next_start(folder: Path) -> None:
     session = EditedSession(0)
     session.wait_for_edits(2)

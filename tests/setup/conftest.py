@@ -1,5 +1,6 @@
 """A small clone with a toy program in it, for the tests that really start bootstrap.py."""
 
+import importlib.util
 import os
 import shutil
 import subprocess
@@ -68,6 +69,14 @@ def new_clone(tmp_path: Path) -> Path:
 def used_clone(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a clone that was started once, with what it needs at hand."""
     clone = make_clone(tmp_path_factory.mktemp("used"))
+    # With the pip that is here: to install one takes most of the time, and every check of the program does it.
+    folder = clone / ".venv"
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", str(folder)], check=True)
+    here = importlib.util.find_spec("pip")
+    assert here is not None
+    assert here.origin is not None
+    packages = next(folder.glob("[Ll]ib*/**/site-packages"))
+    (packages / "pip.pth").write_text(str(Path(here.origin).parents[1]))
     first = start(clone, "run", "--version", PIP_NO_INDEX="1", PIP_FIND_LINKS=str(clone.parent / "wheels"))
     assert (first.returncode, first.stderr) == (0, "")
     assert first.stdout == f"toy {clone.parent} --version\n"

@@ -35,7 +35,8 @@ def test_window_is_left_open(qapp):
 """
 
 
-@pytest.mark.parametrize(("expected", "code"), [pytest.param(True, 0, marks=pytest.mark.slow), (False, 1)])
+@pytest.mark.slow
+@pytest.mark.parametrize(("expected", "code"), [(True, 0), (False, 1)])
 def test_exit_code_is_the_outcome(tmp_path: Path, expected: bool, code: int) -> None:
     shutil.copy(bootstrap.ROOT / "pyproject.toml", tmp_path)
     (tmp_path / "tests").mkdir()

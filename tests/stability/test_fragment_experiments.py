@@ -37,7 +37,7 @@ def test_runs_can_be_repeated_and_open_at_a_pixel_that_is_wrong(name: str) -> No
     info = experiment.info
     for seed in (1, 10, 11) if is_everything() else (10,):
         place = random_place(info.axes, seed)
-        for method in info.methods:
+        for method in info.methods if is_everything() else (info.methods[0], info.methods[-1]):
             verdict, again = (experiment.run(method, place, seed) for _ in range(2))
             assert verdict.remark
             assert (verdict.outcome, verdict.remark) == (again.outcome, again.remark)

@@ -16,19 +16,19 @@ from tests.stability.shrunk_tests import run_test, shrunk_of
 
 CASES = [
     ("slivers", "coverage=snapped", (2.0**-12, 2.0**-14), "coverage=exact"),
-    ("shared-edges", "fill_rule=inclusive", (1.0, 8.0), "fill_rule=shared-edge"),
     ("signs-of-w", "clipping=project-first", (-1.0, 0.5), "clipping=homogeneous"),
     ("segments-past-a-corner", "line_clipping=liang-barsky", (0.0, 0.59375), "line_clipping=exact"),
-    ("affine-w-ratio", "interpolation=affine", (4.0, 32.0), "interpolation=perspective"),
     ("z-fighting-range", "depth=z-24", (1000.0, 1e-6), "visibility=ray-casting"),
     ("blending-order", "visibility=last-drawn blend=over", (4.0, 0.5), "visibility=painters"),
     ("thin-triangles", "antialiasing=none", (0.25, 0.0), "antialiasing=area"),
     ("lost-highlight", "shading=gouraud", (8.0, 128.0), "shading=phong"),
-    ("opposite-normals", "shading=gouraud", (120.0, 2.0), ""),
     ("minification", "texture_filter=nearest", (4.0, 0.0), ""),
 ]
 """Experiment, method, place, and the method that is right for what is left, if there is one."""
 MORE_CASES = [
+    ("shared-edges", "fill_rule=inclusive", (1.0, 8.0), "fill_rule=shared-edge"),
+    ("affine-w-ratio", "interpolation=affine", (4.0, 32.0), "interpolation=perspective"),
+    ("opposite-normals", "shading=gouraud", (120.0, 2.0), ""),
     ("coordinates", "coverage=fixed-24.8", (1024.0, 2.0), "coverage=exact"),
     ("shared-edges", "fill_rule=exclusive", (1.0, 8.0), "fill_rule=shared-edge"),
     ("parallel-segments", "line_clipping=cyrus-beck-lecture", (3.0, 3.0), "line_clipping=exact"),

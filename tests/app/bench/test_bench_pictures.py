@@ -83,6 +83,7 @@ def test_the_core_draws_the_reference(work: Work) -> None:
     assert drawn(ours, work) == Difference(0, 0)
 
 
+@pytest.mark.slow
 def test_two_processes_draw_large_meshes_and_say_who_drew_what() -> None:
     assert ours_shared.contender(small_sphere(is_per_pixel=False)) is None
     assert ours_shared.contender(some_lines()) is None
@@ -116,6 +117,7 @@ def test_a_library_says_what_it_cannot_draw() -> None:
     assert pillow_peer.contender(large_triangle(((9, 9, 9), (9, 9, 9), (10, 9, 9)))) is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("extension", [".obj", ".ply", ".stl"])
 def test_all_readers_give_the_mesh_of_the_file(extension: str) -> None:
     positions, _, triangles = icosphere(2)

@@ -1,6 +1,5 @@
 """Segments and points in the window: outlines, handles, typed ends, words, and steps through all stages."""
 
-import re
 from collections.abc import Callable
 
 import numpy as np
@@ -9,7 +8,6 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from app.files.open_any import open_any
-from app.pages.step.pixel_origins import story_of
 from app.pages.step.scene_pane import settings_records
 from app.session.document import open_document
 from app.views.stage_views import chapters_of
@@ -75,26 +73,6 @@ def test_stages_of_areas_are_skipped_with_a_reason(window: MainWindow) -> None:
     assert skipped["Edges"] == "A segment has no edge functions: it has no inside."
     assert skipped["Bin"] == "A segment has no area: its pixels are found without boxes and blocks."
     assert chapters[STAGES.index("raster")].counts == "1 segment → 9 fragments"
-
-
-@pytest.mark.parametrize("name", ["segment", "points"])
-def test_nothing_on_screen_speaks_of_triangles(window: MainWindow, name: str) -> None:
-    open_scene(window, name)
-    session, page = window.session, window.page
-    texts = []
-    for stage in STAGES:
-        session.set_stage(stage, 0)
-        for level in Level:
-            session.set_level(level)
-            session.step(1)
-            texts.append(page.sentence.text())
-    texts += [button.text() for button in page.timeline.level_buttons.values()]
-    source = session.trace.source
-    for pixel in list(np.ndindex(source.raster.shape))[::3]:
-        story, _ = story_of(source, pixel[1], pixel[0])
-        texts += [story.verdict, *(entry.title + entry.reason for entry in story.entries)]
-    assert len(texts) > 200
-    assert not [text for text in texts if re.search("triangle|corner|edge|vert", text, re.IGNORECASE)]
 
 
 def test_families_of_areas_say_why_they_do_nothing(window: MainWindow) -> None:

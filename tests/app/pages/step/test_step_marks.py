@@ -50,7 +50,7 @@ def is_marked(window: MainWindow) -> bool:
     return bool(len(step.pixels) or any(found.any() for found in finite))
 
 
-EVERY_DAY = ("near-plane", "cube")
+EVERY_DAY = ("near-plane",)
 
 
 @pytest.mark.parametrize(

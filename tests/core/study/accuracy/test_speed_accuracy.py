@@ -31,7 +31,11 @@ SMALL = {"size": 8, "cells": 4, "length": 16, "count": 6, "side": 32, "rings": 6
 SCENE = replace(make_scene("cube"), size=(128, 96))
 NUMBERS_ONLY = {"orientation", "depth-steps"}
 """Families that draw nothing."""
-CASES = [(family.name, work.name) for family in study_families() for work in family.works]
+CASES = [
+    pytest.param(family.name, work.name, marks=[pytest.mark.slow] if place else [])
+    for family in study_families()
+    for place, work in enumerate(family.works)
+]
 
 
 def small_dials(family: str, work: str) -> dict[str, float]:
