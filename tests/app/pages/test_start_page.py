@@ -170,6 +170,7 @@ def test_the_page_is_reached_by_tab_from_begin_to_the_last_group(window: MainWin
     assert [card.entry.name for card in groups.values() if card not in reached] == []
 
 
+@pytest.mark.slow
 def test_the_left_column_is_not_cut_while_presenting(window: MainWindow, page: StartPage) -> None:
     button, column = page.begin_button, page.begin_button.parentWidget()
     window.presenter.arrange()

@@ -215,6 +215,7 @@ def test_what_an_entry_is_about_finds_it_and_nothing_is_said(window: MainWindow)
     window.overlays.close_top()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [SIZES[0], pytest.param(SIZES[1], marks=pytest.mark.slow)], ids=str)
 def test_charts_have_half_of_the_screen_and_the_desk_comes_back(
     window: MainWindow, size: tuple[int, int]
@@ -268,14 +269,17 @@ def test_arrows_step_wherever_the_keyboard_is_but_in_a_field(window: MainWindow)
     assert session.cursor == before
 
 
+TABLES = [
+    ("cube", "cull"),
+    ("polygon-window", "raster"),
+    ("polygon-holes", "raster"),
+    ("connecting-edges", "clip"),
+]
+
+
 @in_turns(
     size=SIZES if is_everything() else SIZES[:1],
-    table=[
-        ("cube", "cull"),
-        ("polygon-window", "raster"),
-        ("polygon-holes", "raster"),
-        ("connecting-edges", "clip"),
-    ],
+    table=TABLES if is_everything() else TABLES[::3],
 )
 def test_tables_are_seen_whole(window: MainWindow, size: tuple[int, int], table: tuple[str, str]) -> None:
     scene, stage = table

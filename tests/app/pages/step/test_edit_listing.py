@@ -15,11 +15,10 @@ from PySide6.QtWidgets import QLabel, QMenu, QPushButton
 
 from app.files.open_any import open_any
 from app.files.state_files import EXTENSION, load_state, save_state
-from app.pages.step.listing_presenter import EDITED_STAGES
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import Settings
-from core.edits import EDITABLE, Edit, original
+from core.edits import Edit, original
 from core.records.steps import Level
 from core.trace.stage_trace import StageTrace
 from lessons.scenes import make_scene
@@ -473,7 +472,3 @@ def test_another_b_takes_the_place_of_the_edit_and_undo_brings_it_back(window: M
     window.session.undo()
     assert window.session.document.edits == edits
     assert "my version" in window.page.compare_view.titles[1].text()
-
-
-def test_the_head_has_its_room_in_the_stages_with_editable_listings() -> None:
-    assert {part.stage for part in EDITABLE.values()} == EDITED_STAGES

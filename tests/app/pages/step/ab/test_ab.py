@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.files.open_any import open_any
@@ -312,18 +311,6 @@ def test_a_vertex_is_dragged_in_any_of_the_pictures(window: MainWindow) -> None:
     assert session.document is not document
     QTest.keyClick(grid, Qt.Key.Key_Escape)
     assert session.document is document
-
-
-def test_titles_and_notes_have_room_for_larger_type(window: MainWindow) -> None:
-    window.appearance.set_theme("light")
-    window.resize(1280, 720)
-    window.page.show_view("compare")
-    QApplication.processEvents()
-    window.presenter.arrange()
-    view = window.page.compare_view
-    for labels, lines in ((view.titles, 4), (view.notes, 5)):
-        for label in labels:
-            assert label.height() >= lines * label.fontMetrics().lineSpacing()
 
 
 def test_several_choices_are_shown_once(window: MainWindow, monkeypatch: pytest.MonkeyPatch) -> None:
