@@ -85,7 +85,7 @@ def placed(step: StepValues) -> Said:
     place, count = step.whole("place"), step.whole("swaps")
     after = f" after {count} swaps" if count > 1 else " after 1 swap" if count else ""
     if step.whole("other") < 0:
-        return f"None stands before {step.name}{after}: of those so far it is drawn first."
+        return f"Nothing stands before {step.name}{after}: of those so far it is drawn first."
     mine, other = step.named("distance", "D"), step.named("other_distance", below("D", "before"))
     text = (
         f"{step.named_primitive(step.whole('other')).capitalize()} (D = {other}) is not nearer: "

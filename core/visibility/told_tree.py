@@ -33,6 +33,7 @@ shows(
         "distances": VariableText(
             "d#", "Distance of each corner from the plane, positive on its front side.", spread="parts"
         ),
+        "cut_t": VariableText("t", "Where a side meets the plane, from its end on the front side."),
         "corner": VariableText("new corner", "x, y, z and w where a side crosses the plane.", spread="parts"),
         "made_front": VariableText("front", "Pieces that the cut makes on the front side.", "corner"),
         "made_back": VariableText("back", "Pieces that the cut makes on the back side.", "corner"),
@@ -114,13 +115,12 @@ def side(step: StepValues) -> Said:
 @explains("depth.cut.share")
 def share(step: StepValues) -> Said:
     """Where the first side crosses the plane."""
-    d, t = step.vector("distances"), step.named("t", "t")
+    d, t = step.vector("distances"), step.named("cut_t", "t")
     k = next(k for k in range(3) if min(d[k], d[k - 2]) < 0 < max(d[k], d[k - 2]))
     before, behind = (k, (k + 1) % 3) if d[k] > 0 else ((k + 1) % 3, k)
     first, second = (named(f"d_{one}", d[one]).of_vertex(one) for one in (before, behind))
-    text = (
-        f"From corner {before} on the front side to corner {behind} on the back, the plane is met at t = {t}."
-    )
+    where = f"corner {before} of {_piece(step)} to its corner {behind}"
+    text = f"From {where}, front to back, the plane is met at t = {t}."
     return text, formula_of(t.equals(slash(first, first - second)))
 
 
@@ -129,7 +129,7 @@ def corner(step: StepValues) -> Said:
     """The new corner, and the pieces."""
     front, back = step.whole("made_front"), step.whole("made_back")
     return (
-        f"A new corner is {vector_text(step.vector('corner'))}. The cut makes {counted(front, 'piece')} on the "
+        f"A new corner is {vector_text(step.vector('corner'))}, and the cut makes {counted(front, 'piece')} on the "
         f"front side and {counted(back, 'piece')} on the back, all still parts of {step.name}."
     )
 
@@ -171,15 +171,15 @@ def drawn(step: StepValues) -> Said:
         " (the eye lies in the plane, so either half may be first)" if step.number("eye") == 0 else ""
     )
     place = f"{'are' if more else 'is'} drawn, at place {step.whole('place')}, counted from 0"
-    return (
-        f"The {far} half of this node is drawn already{eye_in_plane}. Now {_piece(step)}{more} {place}; the {near} "
-        "half follows."
-    )
+    first = f"After the {far} half of this node{eye_in_plane}, {_piece(step)}{more} {place}"
+    return f"{first}, and the {near} half follows."
 
 
 # The tree as a table: nodes below each other, each a step further in than the one above it.
 
 
+DEEPEST = 8
+"""Levels of a tree that are indented; nodes below say theirs."""
 LONGEST = 200
 """Nodes of a table at most."""
 _COLUMNS = (
@@ -215,7 +215,9 @@ def tree_table(trace: StageTrace, rows: Integers, position: int) -> StepTable:
             int(columns["root_triangle"][row]),
             int(columns["root_number"][row]),
         )
-        labels.append("\u2003" * int(tree.depth[node]) + half + name)
+        level = int(tree.depth[node])
+        deep = f"level {level}, " if level > DEEPEST else ""
+        labels.append("\u2003" * min(level, DEEPEST) + deep + half + name)
         at = steps.position_after(row)
         made = [_cell(int(columns[key][row]), at) if position >= at else None for key in ("tested", "cuts")]
         if node in walked:

@@ -58,7 +58,7 @@ TREE_OPERATIONS: dict[str, tuple[Operation, ...]] = {
     "cut": (
         *_TEST,
         Operation("side", "cut", {"side": RETURN}),
-        Operation("share", "t", ("t",)),
+        Operation("share", "t", {"cut_t": "t"}),
         Operation("corner", "corner", ("corner",), ("made_front", "made_back")),
     ),
     "walk": (
@@ -80,18 +80,23 @@ def with_order(found: StageTrace, source: TraceSource) -> StageTrace:
     clip = corners_of(source)
     extra: dict[str, Any]
     if is_registered(chosen, "painters"):
-        kinds, rows, extra = SORT_OPERATIONS, sort_columns(clip), {"sorted": SortedTriangles(clip)}
+        kinds, rows, extra = (
+            SORT_OPERATIONS,
+            sort_columns(clip, source.triangle),
+            {"sorted": SortedTriangles(clip)},
+        )
         listings = dict.fromkeys(kinds, listing(far_to_near))
     elif is_registered(chosen, "bsp"):
         tree = build_tree(clip)
-        kinds, rows, extra, listings = TREE_OPERATIONS, tree_columns(tree), {"tree": tree}, tree_listings()
+        kinds, rows, extra, listings = (
+            TREE_OPERATIONS,
+            tree_columns(tree, source.triangle),
+            {"tree": tree},
+            tree_listings(),
+        )
     else:
         return found
     kind, triangle, group = rows.pop("kind"), rows.pop("triangle"), rows.pop("group")
-    if source.triangle is not None:
-        own = triangle == source.triangle
-        kind, triangle, group = kind[own], triangle[own], group[own]
-        rows = {name: values[own] for name, values in rows.items()}
     if not len(kind):
         return found
     before = replace(found, method=f"visibility={chosen}", extra={**found.extra, **extra})
@@ -178,8 +183,8 @@ class SortedTriangles:
         return examine_pairs(self.clip, np.argsort(-self.distance, kind="stable").tolist())
 
 
-def sort_columns(clip: Floats) -> Columns:
-    """Return the rows of the sort of triangles (T, 3, 4).
+def sort_columns(clip: Floats, chosen: int | None = None) -> Columns:
+    """Return the rows of the sort of triangles (T, 3, 4); with ``chosen``, only those about one triangle.
 
     They are the sum of a triangle's depths, its swaps, and its place among those so far.
     """
@@ -189,6 +194,9 @@ def sort_columns(clip: Floats) -> Columns:
     swaps = _swaps(distance)
     for number, (own, summed) in enumerate(zip(depths.tolist(), distance.tolist(), strict=True)):
         place, end = len(order), len(order) - int(swaps[number])
+        if chosen not in (None, number):
+            order.insert(end, number)
+            continue
         of = {"triangle": number, "group": number, "depths": own, "distance": summed}
         rows.append(of | {"kind": 0, "place": place})
         for other in order[end:][::-1] if swaps.sum() <= MOST_SWAPS else ():
@@ -228,9 +236,12 @@ def corners_of(source: TraceSource) -> Floats:
 # The tree: its nodes with all tests, then the walk.
 
 
-def tree_columns(tree: BspTree) -> Columns:
-    """Return the rows of a tree: every node with its plane and what is tested, then the nodes as they are drawn."""
-    return _joined(list(_tree_rows(tree)), _TREE_COLUMNS)
+def tree_columns(tree: BspTree, chosen: int | None = None) -> Columns:
+    """Return the rows of a tree: every node with its plane and what is tested, then the nodes as they are drawn.
+
+    With ``chosen``, only those about one triangle.
+    """
+    return _joined(list(_tree_rows(tree, chosen)), _TREE_COLUMNS)
 
 
 _TREE_COLUMNS: dict[str, Any] = {
@@ -244,20 +255,23 @@ _TREE_COLUMNS: dict[str, Any] = {
     "clip": [[np.nan] * 4] * 3,
     "distances": [np.nan] * 3,
     "side": "",
-    "t": np.nan,
+    "cut_t": np.nan,
     "corner": [np.nan] * 4,
     "eye": np.nan,
     "eye_side": "",
 }
 
 
-def _tree_rows(tree: BspTree) -> Iterator[dict[str, Any]]:
+def _tree_rows(tree: BspTree, chosen: int | None) -> Iterator[dict[str, Any]]:
     names = list(TREE_OPERATIONS)
-    d = distances(tree.clip[tree.tested], tree.plane[tree.tested_at])
-    shown = np.arange(len(tree.tested))
+    is_own = np.ones(len(tree.triangle), bool) if chosen is None else tree.triangle == chosen
+    shown = np.flatnonzero(is_own[tree.tested])
     if len(shown) > MOST_ROWS:
-        shown = np.flatnonzero(tree.side == CUT)
+        shown = shown[tree.side[shown] == CUT]
+    d = distances(tree.clip[tree.tested[shown]], tree.plane[tree.tested_at[shown]])
     for place, triangle in enumerate(tree.flat.tolist()):
+        if not is_own[triangle]:
+            continue
         plane = plane_of(*tree.clip[triangle].tolist())
         flat = {"kind": names.index("flat"), "group": triangle, "place": place, "plane": plane}
         yield _of_piece(tree, triangle) | flat
@@ -267,21 +281,30 @@ def _tree_rows(tree: BspTree) -> Iterator[dict[str, Any]]:
     tested = np.bincount(tree.tested_at, minlength=len(tree.root))
     cuts = np.bincount(tree.tested_at[tree.side == CUT], minlength=len(tree.root))
     ends = np.searchsorted(tree.tested_at[shown], np.arange(len(tree.root) + 1))
-    of_node = [_of_node(tree, node) for node in range(len(tree.root))]
-    for node, root in enumerate(tree.root.tolist()):
-        yield (
-            of_node[node]
-            | _of_piece(tree, root)
-            | {"kind": names.index("root"), "group": group + node, "tested": tested[node], "cuts": cuts[node]}
-        )
-        for row in shown[ends[node] : ends[node + 1]].tolist():
+    of_node = {}
+    for node in np.flatnonzero(is_own[tree.root] | (np.diff(ends) > 0)).tolist():
+        root = int(tree.root[node])
+        of_node[node] = _of_node(tree, node)
+        if is_own[root]:
+            yield (
+                of_node[node]
+                | _of_piece(tree, root)
+                | {
+                    "kind": names.index("root"),
+                    "group": group + node,
+                    "tested": tested[node],
+                    "cuts": cuts[node],
+                }
+            )
+        for place in range(ends[node], ends[node + 1]):
+            row = int(shown[place])
             side = SIDES[int(tree.side[row])]
             piece = int(tree.tested[row])
             found = of_node[node] | _of_piece(tree, piece)
-            found |= {"kind": names.index(side), "group": group + node, "distances": d[row], "side": side}
+            found |= {"kind": names.index(side), "group": group + node, "distances": d[place], "side": side}
             if side == "cut":
                 found |= dict(zip(("made_front", "made_back"), tree.made[row].tolist(), strict=True))
-                found |= _first_corner(tree.clip[piece], d[row].tolist())
+                found |= _first_corner(tree.clip[piece], d[place].tolist())
             yield found
 
     # The walk: the half without the eye, the node, the half with it.
@@ -291,6 +314,8 @@ def _tree_rows(tree: BspTree) -> Iterator[dict[str, Any]]:
     held = np.bincount(tree.node[tree.node >= 0], minlength=len(tree.root))
     for place, node in enumerate(tree.walk.tolist()):
         root = int(tree.root[node])
+        if not is_own[root]:
+            continue
         yield (
             of_node[node]
             | _of_piece(tree, root)
@@ -333,7 +358,7 @@ def _first_corner(corners: Floats, d: list[float]) -> dict[str, Any]:
     k = next(k for k in range(3) if min(d[k], d[k - 2]) < 0 < max(d[k], d[k - 2]))
     here, there = (k, k - 2) if d[k] > 0 else (k - 2, k)
     t = d[here] / (d[here] - d[there])
-    return {"t": t, "corner": corners[here] + t * (corners[there] - corners[here])}
+    return {"cut_t": t, "corner": corners[here] + t * (corners[there] - corners[here])}
 
 
 def tree_listings() -> dict[str, Listing]:

@@ -70,3 +70,18 @@ def test_a_piece_is_painted_over_because_of_a_plane_with_the_eye_on_its_side() -
     source = trace(make_scene("circle-of-bars"), Settings(visibility="bsp")).source
     said = [event_reason(event) for event in why(source, 33, 35).events if event.triangle == 0]
     assert any("Painted over piece 4 of triangle 2" in text for text in said)
+
+
+@pytest.mark.parametrize("visibility", ["painters", "bsp"])
+def test_one_triangle_has_those_rows_of_the_order_that_are_about_it(visibility: str) -> None:
+    scene, settings = make_scene("circle-of-bars"), Settings(visibility=visibility)
+    found = trace(scene, settings).stage("depth")
+    for triangle in range(3):
+        own = trace(scene, settings, triangle).stage("depth")
+        whole, part = ((stage.pixel[:, 0] < 0) & (stage.triangle == triangle) for stage in (found, own))
+        assert part.sum() == whole.sum() > 0
+        for name in found.columns:
+            numbers = found.columns[name].dtype.kind == "f"
+            assert np.array_equal(found.columns[name][whole], own.columns[name][part], equal_nan=numbers), (
+                name
+            )
