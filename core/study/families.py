@@ -33,8 +33,8 @@ OWN = (
     ANTIALIASING,
     SHADING,
     VISIBILITY,
-    DEPTH_TEST_TIME,
     CULL,
+    DEPTH_TEST_TIME,
 )
 """Studies with work and references of their own; those whose family is not in the table yet are not shown."""
 
