@@ -39,6 +39,7 @@ def scripts(wheel: Path) -> Path:
     return python.parent
 
 
+@pytest.mark.slow
 def test_wheel_holds_every_file_of_the_packages(wheel: Path) -> None:
     with zipfile.ZipFile(wheel) as archive:
         names = {name for name in archive.namelist() if ".dist-info/" not in name}

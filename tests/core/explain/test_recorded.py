@@ -210,7 +210,6 @@ def window(*triangles: Any, z: Any = 0.0, w: Any = 1.0, colors: Any = None) -> C
     return ClipScene(clip_of_window(triangles, SIZE, w, z), colors, SIZE)
 
 
-THIRDS = window_triangle([0, 8, 0], [0, 0, 8], [0.5] * 3, [1, 1, 2], (8, 8))
 BEHIND = [[-0.9, -0.9, 0, 1], [0.9, -0.9, 0, 1], [0, 0.5, -2, 1]]
 THROUGH_EYE = [[-0.5, -0.5, 0, 1], [0.5, -0.5, 0, 1], [0, 0.9, 0, -1]]
 IN_FRONT = [[-0.5, -0.5, -2, 1], [0.5, -0.5, 0, 1], [0, 0.9, 0, 1]]

@@ -17,7 +17,7 @@ from tests.core.fast_path.band_scenes import SPANS, ball
 from tests.core.fast_path.references import exact_bytes, shows_thin_triangle
 from tests.core.spans.adversarial import projected
 from tests.core.strategies import clip_of_window
-from tests.covering import every_pair
+from tests.covering import in_turns
 
 SEEDS = st.integers(0, 2**32 - 1)
 ENCODINGS = st.sampled_from(["srgb", "linear"])
@@ -72,7 +72,7 @@ def test_pictures_are_within_a_byte(
     assert_within_a_byte(scene, Settings(interpolation=interpolation, visibility=visibility), encoding)
 
 
-@every_pair(shift=range(3), turned=[False, True], extent=[(250, 250), (3000, 14), (14, 3000), (500, 400)])
+@in_turns(shift=range(3), turned=[False, True], extent=[(250, 250), (3000, 14), (14, 3000), (500, 400)])
 def test_long_ramps_from_black_and_from_white(shift: int, turned: bool, extent: tuple[int, int]) -> None:
     # Steps are rounded and add up over the triangle: no channel may run below 0 or above 255.
     width, height = extent

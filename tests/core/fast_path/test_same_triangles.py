@@ -11,7 +11,7 @@ from core.spans.bands import BIG_AREA
 from tests.core.fast_path.numbered import assert_same
 from tests.core.spans.adversarial import SIZES, mixed, projected
 from tests.core.strategies import clip_of_window
-from tests.covering import every_pair
+from tests.covering import every_pair, in_turns
 
 SEEDS = st.integers(0, 2**32 - 1)
 DEPTHS = st.sampled_from(table.names("depth"))
@@ -116,7 +116,7 @@ def with_area(area: float, at: np.ndarray, slant: float) -> np.ndarray:
     return at + np.array([[0.0, 0.0], [width, 0.0], [slant, 2 * area / width]])
 
 
-@every_pair(
+@in_turns(
     depth=table.names("depth"),
     area=[BIG_AREA - 0.25, BIG_AREA, 3 * BIG_AREA],
 )

@@ -95,9 +95,3 @@ def lane_of(given: dict[str, GlslValue], k: int) -> dict[str, GlslValue]:
         )
         for name, value in given.items()
     }
-
-
-def color_of(source: str, given: dict[str, GlslValue], count: int) -> np.ndarray:
-    """Return the colours (L, 4) of a shader."""
-    parts = shader_of(source).run(given, count).values["c"].parts
-    return np.stack([np.broadcast_to(part, count) for part in parts], axis=1)

@@ -73,7 +73,6 @@ perspective = 11
 [scene]
 builtin = "near-plane"
 """
-CASE = '[[answer.cases]]\nask = "one"\nright = "a"\n'
 
 
 def written(folder: Path, text: str) -> Path:

@@ -4,7 +4,6 @@ from collections import Counter
 
 import pytest
 
-from core.lines.line_method import line_traits
 from core.methods import table
 from core.settings import Settings
 from core.study.counted_listings import (
@@ -20,7 +19,6 @@ from core.study.workloads import random_lines
 SIZE = (64, 64)
 SEGMENTS = random_lines(SIZE, 12, 24.0, 3, False)
 COUNTED = table.names("line")
-FLOATING = [name for name in COUNTED if not line_traits(name).takes_pixels]
 
 
 def level_line(line: str, length: int) -> dict[str, int]:
