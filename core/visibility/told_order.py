@@ -16,7 +16,9 @@ from core.visibility.traced_order import SORT_OPERATIONS, SortedTriangles
 shows(
     "depth",
     {
-        "depths": VariableText("corner depths", "Depth of each corner along the view.", spread="parts"),
+        "depths": VariableText(
+            lambda step: f"{_depth(step)}#", "Depth of the corner along the view.", spread="parts"
+        ),
         "distance": VariableText("D", "Sum of the corners' depths, three times their mean."),
         "other": VariableText("before it", "The triangle just before it in the order so far."),
         "other_distance": VariableText("D before", "The sum of that one's depths.", "other"),

@@ -31,10 +31,12 @@ shows(
     "depth",
     {
         "distances": VariableText(
-            "d#", "Distance of each corner from the plane, positive on its front side.", spread="parts"
+            "distance d#",
+            "Distance of each corner from the plane, positive on its front side.",
+            spread="parts",
         ),
         "cut_t": VariableText("t", "Where a side meets the plane, from its end on the front side."),
-        "corner": VariableText("new corner", "x, y, z and w where a side crosses the plane.", spread="parts"),
+        "corner": VariableText("new corner", "x, y, z and w where a side crosses the plane."),
         "made_front": VariableText("front", "Pieces that the cut makes on the front side.", "corner"),
         "made_back": VariableText("back", "Pieces that the cut makes on the back side.", "corner"),
         "eye": VariableText("d eye", "Distance of the eye (0, 0, −1, 0) from the plane."),
