@@ -86,6 +86,7 @@ def trace_filter(
     found = np.flatnonzero(edge >= 0)
     tracks = (
         BufferTrack("display", np.zeros((height, width, 4), np.uint8), every, every, pixels, "bytes"),
+        BufferTrack("color", np.full((height, width, 4), np.nan, np.float32), every, every, result, "color"),
         BufferTrack("luma", nothing, every, every, columns["around"][:, 1, 1]),
         BufferTrack("edges", nothing, every, every, (edge >= 0).astype(float), "flags"),
         BufferTrack("moved by", nothing, found, found, columns["offset"][found]),
