@@ -1,6 +1,6 @@
 """The stepping page: side panes, main view, inspector and the run at the bottom, around one session."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from functools import partial
 
@@ -17,12 +17,12 @@ from app.pages.step.inspector_presenter import InspectorPresenter
 from app.pages.step.listing_presenter import ListingPresenter
 from app.pages.step.main_area import MainArea
 from app.pages.step.navigator_presenter import NavigatorPresenter
-from app.pages.step.panes import PANES, SIDE_PANES
+from app.pages.step.panes import PANES, SIDE_PANES, RefreshOrder
 from app.pages.step.questions import AskThis, PredictionPresenter
 from app.pages.step.scene_pane import DepthTablePresenter, SceneOutlinePresenter
 from app.pages.step.shader_presenter import ShaderPresenter, make_shader_pane
 from app.pages.step.stepping_presenter import EventChoice, SteppingPresenter
-from app.session.moment import Change, Moment
+from app.session.moment import Moment
 from app.session.session import Session
 from app.views.stage_views import StageViews
 from core.scene import AnyScene
@@ -112,62 +112,12 @@ class StepPage(Page):
         """While presenting, the panes that come back after it."""
         self._lay_out()
         self.show_panes(PANES_AT_FIRST)
-        self._order = self._order_of_parts()
-        """What shows a moment after which change, one after the other."""
-        session.changed.connect(self._follow)
+        self._order = RefreshOrder(self)
 
     @Slot()
     def _show_clicked(self) -> None:
         """Show the history of a clicked pixel, also of one that was pinned before."""
         self.column.show_history(self.session.moment)
-
-    def _order_of_parts(self) -> tuple[tuple[int, Callable[[Moment], object]], ...]:
-        document, step, pin, pointing = Change.DOCUMENT, Change.STEP, Change.PIN, Change.POINTING
-        cursor, run = Change.CURSOR, Change.DOCUMENT | Change.PREDICTING
-        order: tuple[tuple[Change, Callable[[Moment], object]], ...] = (
-            (Change.OPENED, self._begin_anew),
-            (step | run | pointing | Change.ASKED, self.views.refresh),
-            (step, self.main_area.follow_stage),
-            (step | run, self.main_area.refresh_beside),
-            (run, self.stepping.refresh_run),
-            (cursor, self.stepping.refresh_cursor),
-            (pin, self.stepping.refresh_marks),
-            (step | pin, self.stepping.end_message),
-            (run, self.inspector.refresh_run),
-            (cursor, self.inspector.refresh_step),
-            (cursor, self.column.show_step),
-            (pointing, self.inspector.refresh_history),
-            (pin, self.column.show_history),
-            (step, self.inspector.ahead.begin),
-            (document, self.grids.refresh_run),
-            (cursor | Change.PREDICTING, self.grids.refresh_step),
-            (pointing, self.grids.refresh_pointing),
-            (document, self.scene.refresh),
-            (document, self.table_editing.refresh),
-            (document, self.shading.refresh),
-            (run | Change.EDITS, self.comparing.refresh),
-            (run | Change.EDITS | Change.ASKED, self.editing.refresh),
-            (cursor, self.comparing.follow_step),
-            (pointing, self.comparing.refresh_pointing),
-            (step | run, self._show_place),
-            (step, self.predicting.refresh),
-            (step | run | pointing, self.narrator.owe),
-            (run, self.navigation.refresh),
-            (cursor, self.navigation.follow_step),
-            (step, self.settle_layouts),
-        )
-        return tuple((change.value, show) for change, show in order)
-
-    @Slot(Change)
-    def _follow(self, what: Change) -> None:
-        """Bring all parts up to date, each once: who shows another document shows its step and its pin, too."""
-        if Change.DOCUMENT in what:
-            what &= ~(Change.CURSOR | Change.POINTING)
-        bits = what.value
-        for changes, show in self._order:
-            if changes & bits:
-                # A part may have gone on to another step: the others show that one.
-                show(self.session.moment)
 
     @Slot(object, object, str)
     def _compare_scene(self, differences: dict[str, str | int], scene: AnyScene, title: str) -> None:
@@ -175,7 +125,7 @@ class StepPage(Page):
         self.show_view("compare")
         self.comparing.show_mistake(differences, scene, title)
 
-    def _begin_anew(self, moment: Moment) -> None:
+    def begin_anew(self, moment: Moment) -> None:
         """Show all pixels of a scene that was opened, and a B that has an effect there."""
         self.grid.fit()
         self.compare_view.grids[0].fit()
@@ -207,9 +157,9 @@ class StepPage(Page):
     @Slot()
     def _follow_lesson(self) -> None:
         """Name the step of the lesson that is shown, or what is open without one."""
-        self._show_place(self.session.moment)
+        self.show_place(self.session.moment)
 
-    def _show_place(self, moment: Moment) -> None:
+    def show_place(self, moment: Moment) -> None:
         """Name stage, step and scene, or lesson and step; while predicting, not how many steps are left."""
         if self.lessons.place:
             self.place.setText(self.lessons.place)
@@ -310,7 +260,7 @@ class StepPage(Page):
         self._desk_panes = panes if is_presenting else None
         self.side_tabs.setVisible(not is_presenting)
         self.place.setVisible(is_presenting)
-        self._show_place(self.session.moment)
+        self.show_place(self.session.moment)
         self.stepping.stops_at_ends = is_presenting
         self._page_layout.setContentsMargins(*(PRESENTED_MARGINS if is_presenting else MARGINS))
         self.main_area.set_presenting(is_presenting)

@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 import pytest
 
+from app.pages.step.panes import order_of_parts
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from lessons.scenes import make_scene
@@ -15,7 +16,7 @@ pytestmark = pytest.mark.shared_window
 
 def refreshes(window: MainWindow, do: Callable[[], object]) -> Counter[str]:
     """Return how often each part is brought up to date, by the page or by another part."""
-    return calls_of([show for _, show in window.page._order], do)
+    return calls_of([show for _, show in order_of_parts(window.page)], do)
 
 
 def test_a_change_refreshes_each_part_once(window: MainWindow) -> None:
