@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterable
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QWidget
 
-from app.export.views import png_bytes, seen_image, svg_text
+from app.export.painting import seen_image, svg_text
+from app.export.views import png_bytes
 from widgets.basics.controls import column_layout
 from widgets.basics.style_sheet import style_sheet
 from widgets.basics.theme import LIGHT, paint_as, text_font

@@ -18,7 +18,7 @@ from widgets.basics.controls import button_with_tip, column_layout, row_layout, 
 from widgets.basics.message_bar import Progress
 
 if TYPE_CHECKING:
-    from app.files.between_starts import Preferences
+    from app.files.preferences import Preferences
     from core.edits import Edit
     from core.scene import AnyScene
     from core.study.record import Opening
@@ -138,7 +138,7 @@ class Page(QWidget):
     """What is to be opened, as links of Help say it: ``exercise/shared-edge``."""
 
     preference_changed = Signal(str, object)
-    """Name and value of a field of ``app.files.between_starts.Preferences`` that the user has changed."""
+    """Name and value of a field of ``app.files.saved_windows.Preferences`` that the user has changed."""
 
     action_requested = Signal(str)
     """Name of an action of ``app.window.actions.ACTIONS`` that is another page's, or shows another page."""

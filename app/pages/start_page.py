@@ -30,7 +30,7 @@ from widgets.lessons.lesson_list import LessonList
 from widgets.scene.cards import PICTURE, SceneCards, SceneEntry
 
 if TYPE_CHECKING:
-    from app.files.between_starts import Preferences
+    from app.files.preferences import Preferences
 
 
 FIRST = CATALOGUE[0].name

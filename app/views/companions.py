@@ -6,8 +6,9 @@ from PySide6.QtWidgets import QWidget
 from app.session.moment import Moment
 from app.session.session import Session
 from app.views.clip_diagram import clip_diagram, clip_state, cube_strokes
-from app.views.pointed_pixel import pointed_pixels, shown_triangle, texture_of, texture_pictures
+from app.views.pointed_pixel import pointed_pixels, shown_triangle
 from app.views.pyramid_diagram import pyramid_diagram
+from app.views.texture_footprint import texture_of, texture_pictures
 from core import STAGES
 from core.explain.step_tables import has_tables, largest_tables, step_table
 from core.records.arrays import Floats

@@ -7,7 +7,7 @@ from PySide6.QtGui import QCloseEvent, QContextMenuEvent, QDragEnterEvent, QDrop
 from PySide6.QtWidgets import QLabel, QStatusBar
 
 from app.background import ending_within
-from app.files.between_starts import Preferences
+from app.files.preferences import Preferences
 from app.files.user_folders import is_lesson_file
 from app.help.pane import HelpPane
 from app.pages.lessons.presenter import BEGINNING, WAY_BACK

@@ -9,8 +9,8 @@ from PySide6.QtCore import QObject, Signal, Slot
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QMenu
 
-from app.files.between_starts import earlier_windows
 from app.files.file_access import shown_name
+from app.files.saved_windows import earlier_windows
 from app.files.user_folders import preferences_folder
 from app.session.document import TEACHING_SIZES, Document
 from app.window.appearance import DESK_THEMES, TEXT_SIZES

@@ -16,15 +16,10 @@ from PySide6.QtWidgets import QApplication
 
 from app.background import Collecting, is_work_left
 from app.export.views import export_widget
-from app.files.between_starts import (
-    EarlierWindow,
-    WindowFile,
-    earlier_windows,
-    load_preferences,
-    remove_oldest_windows,
-)
 from app.files.file_access import FileWriteError
 from app.files.open_any import Opened, open_any
+from app.files.preferences import load_preferences
+from app.files.saved_windows import EarlierWindow, WindowFile, earlier_windows, remove_oldest_windows
 from app.files.user_folders import has_answers, preferences_folder
 from app.pages.page_table import page_of_file
 from app.usage import UsageError

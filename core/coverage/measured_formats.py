@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core.coverage.edges import edge_value, set_up_edges
-from core.coverage.measured_cover import FORMATS, Wanted, count_cover
+from core.coverage.measured_cover import Wanted, count_cover
 from core.coverage.measured_pixel import DialReading, precision_dial, read_format
+from core.coverage.measured_triangles import FORMATS
 from core.coverage.pixel_runs import half, make_raster
 from core.coverage.snapping import place_corners
 from core.records.arrays import Flags, Integers

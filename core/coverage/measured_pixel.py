@@ -14,8 +14,9 @@ from fractions import Fraction
 import numpy as np
 
 from core.coverage.edges import EdgeFunctions, set_up_edges
-from core.coverage.measured_cover import FORMATS, CoverageExperiment, powers, sliver
+from core.coverage.measured_cover import CoverageExperiment
 from core.coverage.measured_exactly import Corner, facing, homogeneous_corner, owns_edge
+from core.coverage.measured_triangles import FORMATS, powers, sliver
 from core.coverage.number_formats import FIXED, LAST, NEXT, CornerPositions, NumberFormat, bit_pattern
 from core.coverage.pixel_runs import half
 from core.coverage.snapping import place_corners

@@ -12,15 +12,9 @@ from math import floor
 
 import numpy as np
 
-from core.coverage.measured_cover import (
-    Cover,
-    CoverageExperiment,
-    CoverCase,
-    on_its_grid,
-    powers,
-    scene_of_window,
-)
+from core.coverage.measured_cover import Cover, CoverageExperiment, CoverCase, on_its_grid
 from core.coverage.measured_exactly import facing, whole_corner
+from core.coverage.measured_triangles import powers, scene_of_window
 from core.coverage.scanline import draw_triangle
 from core.lines.drawing import draw_lines
 from core.lines.line_method import LinePixels

@@ -2,7 +2,7 @@
 
 from core.antialiasing.measured import THIN
 from core.clipping import measured as clipping
-from core.coverage import measured_cover, measured_pixel, measured_sums
+from core.coverage import measured_pixel, measured_sums, measured_triangles
 from core.culling import measured as culling
 from core.depth.measured import BY_DISTANCE, BY_RANGE, ORTHOGRAPHIC
 from core.depth.measured_order import CIRCLE, LAYERS
@@ -21,8 +21,7 @@ from core.textures.measured import MINIFICATION, SHADING_ALIASING
 
 COVERAGE_EXPERIMENTS: tuple[Experiment, ...] = (
     *measured_pixel.EXPERIMENTS,
-    *measured_cover.FORMAT_EXPERIMENTS,
-    *measured_cover.MESH_EXPERIMENTS,
+    *measured_triangles.EXPERIMENTS,
     *measured_sums.DRIFT_EXPERIMENTS,
     *measured_sums.SLOPE_EXPERIMENTS,
     *culling.EXPERIMENTS,

@@ -10,10 +10,11 @@ from core.scene import AnyScene, ClipScene
 from core.settings import settings_from_texts
 from core.study.planner.trials import difference, shown
 from lessons.exercises.answers.answer import Answer, Dial, Entry, NotCheckedError
-from lessons.exercises.answers.choices import ChoiceAnswer, OrderAnswer, SpotAnswer
+from lessons.exercises.answers.choices import ChoiceAnswer, OrderAnswer
 from lessons.exercises.answers.fields import Column, NumberAnswer, TableAnswer
 from lessons.exercises.answers.listings import CodeAnswer, LineAnswer, head_alone, with_line
 from lessons.exercises.answers.marked import PixelAnswer, PlaceAnswer, Places, read_art
+from lessons.exercises.answers.spot import SpotAnswer
 from lessons.exercises.answers.steps import StepsAnswer
 from lessons.exercises.answers.trials import BreakAnswer, CheapestAnswer, Family, Values
 from lessons.exercises.coding.tasks import task_named

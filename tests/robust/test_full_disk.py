@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.files import between_starts, file_access
+from app.files import file_access, saved_windows
 from app.files.open_any import open_any
 from app.files.user_folders import preferences_folder
 from app.window.main_window import CLOSE_UNSAVED, MainWindow
@@ -49,8 +49,8 @@ def only_state() -> Path:
 def test_edits_are_saved_once_there_is_room_again(
     window: MainWindow, disk: Disk, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(between_starts, "PAUSE", 0)
-    monkeypatch.setattr(between_starts, "RETRY", 20)
+    monkeypatch.setattr(saved_windows, "PAUSE", 0)
+    monkeypatch.setattr(saved_windows, "RETRY", 20)
     window.memory.autosave.begin(None)
     window.session.set_setting("fill", "blocks")
     qtbot.waitUntil(lambda: len(list(preferences_folder().glob("last*.rasterscope"))) == 1, timeout=20000)

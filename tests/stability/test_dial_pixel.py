@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings
-from core.coverage.measured_cover import FORMATS, CoverageExperiment, as_given, sliver
+from core.coverage.measured_cover import CoverageExperiment, as_given
 from core.coverage.measured_formats import (
     FormatAtPixel,
     PixelInFormats,
@@ -13,6 +13,7 @@ from core.coverage.measured_formats import (
     settings_in,
 )
 from core.coverage.measured_pixel import FILL_RULE
+from core.coverage.measured_triangles import FORMATS, sliver
 from core.methods import table
 from core.study.stability import Outcome, StressCancelledError, experiments
 from core.study.workloads import flat_scene

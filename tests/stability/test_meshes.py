@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings
-from core.coverage.measured_cover import SIDE, count_cover, scene_of_window, through_the_eye, uneven_grid
+from core.coverage.measured_cover import count_cover
+from core.coverage.measured_triangles import SIDE, scene_of_window, through_the_eye, uneven_grid
 from core.records.arrays import Integers
 from core.study.family import settings_of
 from core.study.stability import Outcome, experiments

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings, render
-from core.coverage.measured_cover import FORMATS, as_given, far_corners, sliver
+from core.coverage.measured_cover import as_given
 from core.coverage.measured_pixel import (
     AREA,
     ELIMINATION,
@@ -14,6 +14,7 @@ from core.coverage.measured_pixel import (
     DialReading,
     precision_dial,
 )
+from core.coverage.measured_triangles import FORMATS, far_corners, sliver
 
 CENTER = (41, 35)
 """A pixel whose centre lies just inside the long side of `sliver`."""

@@ -26,10 +26,10 @@ from core.settings import DEFAULTS
 from lessons.attempts.practice import telling_apart
 from lessons.attempts.record import Attempt, attempt_of
 from lessons.exercises.answers.answer import NotCheckedError, Response, Verdict
-from lessons.exercises.answers.choices import SpotAnswer
 from lessons.exercises.answers.fields import NumberAnswer
 from lessons.exercises.answers.listings import CannotRunError, CodeAnswer, Opened
 from lessons.exercises.answers.marked import PixelAnswer, PlaceAnswer
+from lessons.exercises.answers.spot import SpotAnswer
 from lessons.exercises.answers.trials import BreakAnswer
 from lessons.exercises.coding.shader_task import Beside
 from lessons.exercises.drafting import frame_art

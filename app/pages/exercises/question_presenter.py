@@ -34,8 +34,8 @@ from core.records.words import counted
 from lessons.attempts.practice import TRY_LIMIT
 from lessons.attempts.record import Attempt
 from lessons.exercises.answers.answer import NotCheckedError, Response
-from lessons.exercises.answers.choices import SpotAnswer
 from lessons.exercises.answers.listings import CannotRunError
+from lessons.exercises.answers.spot import SpotAnswer
 from lessons.exercises.answers.steps import StepsAnswer
 from lessons.exercises.question import Question, Template, hints_after
 from lessons.scene_edits import scene_digest

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 import app.pages
-from app.files.between_starts import Preferences, load_preferences
+from app.files.preferences import Preferences, load_preferences
 from app.pages.page_bar import StepRequest
 from app.session.document import open_document
 from app.window.main_window import MainWindow

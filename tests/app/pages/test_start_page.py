@@ -8,8 +8,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QPushButton
 from pytestqt.qtbot import QtBot
 
-from app.files.between_starts import load_preferences
 from app.files.open_any import open_any
+from app.files.preferences import load_preferences
 from app.pages.start_page import StartPage, picture_of
 from app.window.main_window import MainWindow
 from lessons.lectures.scenes import ALL_SCENES, LECTURES

@@ -10,10 +10,11 @@ from PySide6.QtWidgets import QApplication
 from app.session.document import focus_on, open_document
 from app.session.session import Session
 from app.views.companions import PyramidView
-from app.views.pointed_pixel import no_texture_reason, shown_triangle
+from app.views.pointed_pixel import shown_triangle
 from app.views.scene3d_presenter import ASKED, DRAWING
 from app.views.scene_picture import fractions
 from app.views.stage_views import StageViews
+from app.views.texture_footprint import no_texture_reason
 from app.views.view_space import make_space, step_marks, thinned, viewed_scene, viewing_camera
 from core import Settings, render
 from core.fast_path.workers import BandWorkers

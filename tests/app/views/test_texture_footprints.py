@@ -5,7 +5,7 @@ import pytest
 
 from app.session.document import focus_on, open_document
 from app.session.session import Session
-from app.views.pointed_pixel import (
+from app.views.texture_footprint import (
     PIXEL_SQUARE,
     no_texture_reason,
     pixel_in_texture,

@@ -6,7 +6,8 @@ import sys
 
 import pytest
 
-from app.files.between_starts import (
+from app.files.file_access import FileWriteError
+from app.files.preferences import (
     FILE_NAME,
     RECENT_LIMIT,
     Preferences,
@@ -14,7 +15,6 @@ from app.files.between_starts import (
     save_preferences,
     with_recent_file,
 )
-from app.files.file_access import FileWriteError
 from app.files.user_folders import preferences_folder
 
 

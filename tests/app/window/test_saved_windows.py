@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.files.between_starts import KEPT, WindowFile, earlier_windows, new_window_file, remove_oldest_windows
 from app.files.file_access import FileWriteError
 from app.files.open_any import open_any
+from app.files.saved_windows import KEPT, WindowFile, earlier_windows, new_window_file, remove_oldest_windows
 from app.files.user_folders import preferences_folder
 from app.session.document import Document, open_document
 from app.window.main_window import MainWindow
@@ -43,7 +43,7 @@ def saved(window: MainWindow, qtbot: QtBot) -> Document:
 
 def states():
     """Return the files of all windows; the locks stay as they are."""
-    from app.files.between_starts import EarlierWindow
+    from app.files.saved_windows import EarlierWindow
 
     return [EarlierWindow(path, was_closed=True) for path in preferences_folder().glob("last*.rasterscope")]
 

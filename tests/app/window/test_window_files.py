@@ -11,9 +11,9 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.files.between_starts import load_preferences
 from app.files.file_dialogs import SaveDialog
 from app.files.open_any import open_any
+from app.files.preferences import load_preferences
 from app.files.state_files import EXTENSION
 from app.session.document import open_document
 from app.window.main_window import MainWindow

@@ -9,9 +9,9 @@ import pytest
 from core import Settings, render
 from core.scene import ClipScene
 from lessons.exercises.answers.answer import Dial, Entry, NotCheckedError
-from lessons.exercises.answers.choices import SpotAnswer
 from lessons.exercises.answers.listings import LineAnswer
 from lessons.exercises.answers.marked import PlaceAnswer
+from lessons.exercises.answers.spot import SpotAnswer
 from lessons.exercises.answers.steps import FIXED, StepsAnswer
 from lessons.exercises.answers.trials import BreakAnswer, CheapestAnswer, Family
 from lessons.exercises.numbers import Draws

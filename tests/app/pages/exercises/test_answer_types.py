@@ -10,7 +10,7 @@ from app.files.user_folders import attempt_file
 from app.window.main_window import MainWindow
 from core.records.cells import Form
 from lessons.exercises.answers.answer import Entry
-from lessons.exercises.answers.choices import SpotAnswer
+from lessons.exercises.answers.spot import SpotAnswer
 from lessons.exercises.answers.trials import BreakAnswer
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import ask

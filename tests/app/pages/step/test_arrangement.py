@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
-from app.files.between_starts import Preferences
+from app.files.preferences import Preferences
 from app.window.main_window import MainWindow
 from core.stages.declared import STAGES
 from tests.core.listings import listings_of_the_program

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QLineEdit
 from app.files.open_any import Opened, open_any
 from app.pages.step.grid_records import mask_overlays
 from app.session.document import focus_on
-from app.views.pointed_pixel import texture_pictures
+from app.views.texture_footprint import texture_pictures
 from app.window.main_window import MainWindow
 from core.explain.steps import variables
 from core.records.listing import ShaderListing
