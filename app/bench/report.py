@@ -3,7 +3,6 @@
 The prototypes were measured on two cores, against llvmpipe on two threads; everything else ran on one.
 """
 
-import os
 import platform
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -13,6 +12,7 @@ import numpy as np
 from app import __version__
 from app.bench.harness import Entry, Result
 from app.bench.threads import THREADS
+from core.fast_path.workers.band_workers import usable_cores
 from core.study.record import processor_name
 
 # What is aimed at: how many times as long another library should take as the core, and what a prototype
@@ -116,13 +116,6 @@ def this_machine() -> Machine:
         numpy=np.__version__,
         program=__version__,
     )
-
-
-def usable_cores() -> int:
-    """Return how many cores this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 # The results as text: a table for each workload.

@@ -25,7 +25,7 @@ from core.stages.bin_and_raster import covered
 from core.stages.declared import STAGES
 from core.stages.geometry import Geometry
 from core.stages.vertices import process_geometry
-from core.study.cases import StressCancelledError
+from core.study.record import StudyCancelledError
 
 MOST_SHOWN = 4
 """Triangles of a pixel that are read operation by operation; those that are decided wrongly come first."""
@@ -98,7 +98,7 @@ def pixel_in_formats(
 
     Raises
     ------
-    StressCancelledError
+    StudyCancelledError
         When it was cancelled.
     ValueError
         If the scene has no such pixel, or no triangle.
@@ -214,4 +214,4 @@ def _run_count(scene: ClipScene, settings: Settings, pixel: Pixel) -> int | None
 
 def _stop_if(is_cancelled: Callable[[], bool]) -> None:
     if is_cancelled():
-        raise StressCancelledError("the reading was cancelled")
+        raise StudyCancelledError("the reading was cancelled")

@@ -26,21 +26,22 @@ if TYPE_CHECKING:
         Pictures,
         Point,
         Study,
+        StudyCancelledError,
         WorkKind,
         best_values,
         machine,
         pareto_front,
     )
-    from core.study.speed_accuracy import StudyCancelledError, measure, opening, pictures
+    from core.study.speed_accuracy import measure, opening, pictures
 else:
     # What measures a topic imports from here, and stands in the list of all studies: neither waits for the other.
     places = {
         "core.study.families": "study_families study_family",
         "core.study.planner": "Decision Findings Plan PlanReport Tolerance check_plan look_at measure_plan plan"
         " plan_and_check reference_settings",
-        "core.study.record": "BestValue ErrorMeasure Opening Pictures Point Study WorkKind best_values machine"
-        " pareto_front",
-        "core.study.speed_accuracy": "StudyCancelledError measure opening pictures",
+        "core.study.record": "BestValue ErrorMeasure Opening Pictures Point Study StudyCancelledError WorkKind"
+        " best_values machine pareto_front",
+        "core.study.speed_accuracy": "measure opening pictures",
     }
     __getattr__ = import_on_demand(
         globals(), **{name: place for place, names in places.items() for name in names.split()}

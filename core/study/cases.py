@@ -18,14 +18,10 @@ from numpy.typing import NDArray
 from core.records.arrays import Floats, Integers
 from core.records.words import counted
 from core.scene import AnyScene
-from core.study.record import Axis, Outcome, Verdict
+from core.study.record import Axis, Outcome, StudyCancelledError, Verdict
 
 # What a stability experiment says: one outcome for every cell of a grid of parameters, one map for every
 # method.
-
-
-class StressCancelledError(Exception):
-    """Whoever asked for the experiment does not want it any more."""
 
 
 @dataclass(frozen=True)
@@ -251,7 +247,7 @@ def minimize(
     ------
     ValueError
         If the scene does not fail.
-    StressCancelledError
+    StudyCancelledError
         As soon as ``is_cancelled()``.
     """
     run_count = 0
@@ -260,7 +256,7 @@ def minimize(
         """Run a candidate; ``None``: it is no scene, or nobody knows what is right for it."""
         nonlocal run_count
         if is_cancelled():
-            raise StressCancelledError("shrinking was cancelled")
+            raise StudyCancelledError("shrinking was cancelled")
         run_count += 1
         try:
             return judge(kind.put_together(parts))

@@ -123,6 +123,10 @@ class Load:
 # errors.
 
 
+class StudyCancelledError(Exception):
+    """Whoever asked for the measurement does not want it any more; nothing is left of it."""
+
+
 @dataclass(frozen=True)
 class ErrorMeasure:
     """One way to say how wrong a result is; 0 is exact."""

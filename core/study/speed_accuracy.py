@@ -25,7 +25,19 @@ from core.study.family import (
     settings_of,
     timed_block,
 )
-from core.study.record import SURE, Axis, Load, Opening, Pictures, Point, Study, WorkKind, is_settled, ranks
+from core.study.record import (
+    SURE,
+    Axis,
+    Load,
+    Opening,
+    Pictures,
+    Point,
+    Study,
+    StudyCancelledError,
+    WorkKind,
+    is_settled,
+    ranks,
+)
 
 ROUNDS = 9
 GROWTH_ROUNDS = 3
@@ -35,10 +47,6 @@ BUDGET = 2.0
 """Seconds of timed blocks of one method."""
 
 Progress = Callable[[float, str], None]
-
-
-class StudyCancelledError(Exception):
-    """The measurement was cancelled; nothing is left of it."""
 
 
 @dataclass(eq=False)

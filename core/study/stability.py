@@ -10,9 +10,9 @@ from core.framebuffer.measured import BLENDING
 from core.interpolation.measured import AFFINE
 from core.lines import measured_clipping
 from core.shading.measured import HIGHLIGHT, NORMALS
-from core.study.cases import Atlas, ExperimentInfo, StabilityMap, StressCancelledError
+from core.study.cases import Atlas, ExperimentInfo, StabilityMap
 from core.study.experiment import Experiment, experiments
-from core.study.record import Axis, Outcome, Verdict
+from core.study.record import Axis, Outcome, StudyCancelledError, Verdict
 from core.study.stress import count_outcomes, stress, study_experiment
 from core.textures.measured import MINIFICATION, SHADING_ALIASING
 
@@ -58,7 +58,7 @@ __all__ = [
     "ExperimentInfo",
     "Outcome",
     "StabilityMap",
-    "StressCancelledError",
+    "StudyCancelledError",
     "Verdict",
     "count_outcomes",
     "experiments",

@@ -20,10 +20,10 @@ import numpy as np
 from core.scene import AnyScene
 from core.settings import Settings
 from core.study.case_text import case_text
-from core.study.cases import Atlas, StabilityMap, StressCancelledError, minimize
+from core.study.cases import Atlas, StabilityMap, minimize
 from core.study.experiment import Experiment, experiments
 from core.study.family import Assignment, StudyFamily, Task, chosen_dials
-from core.study.record import Axis, Opening, Outcome, Verdict
+from core.study.record import Axis, Opening, Outcome, StudyCancelledError, Verdict
 
 # Run an experiment over its whole grid, coarse or fine: one real run for every cell of every method.
 
@@ -69,7 +69,7 @@ def stress(
     ------
     ValueError
         For an experiment that is not there, or axes that are not the experiment's.
-    StressCancelledError
+    StudyCancelledError
         As soon as ``is_cancelled()``.
     """
     if isinstance(experiment, str):
@@ -85,7 +85,7 @@ def stress(
         verdicts, seconds = [], []
         for cell, place in enumerate(places):
             if is_cancelled is not None and is_cancelled():
-                raise StressCancelledError(f"{experiment.title} was cancelled")
+                raise StudyCancelledError(f"{experiment.title} was cancelled")
             verdicts.append(experiment.run(method, place, seed))
             if with_times:
                 seconds.append(experiment.time(method, place, seed))
@@ -269,7 +269,7 @@ def shrink_cell(
     ------
     ValueError
         If the cell is right, or refused.
-    StressCancelledError
+    StudyCancelledError
         As soon as ``is_cancelled()``.
     """
     if isinstance(experiment, str):

@@ -15,7 +15,7 @@ from core.coverage.measured_formats import (
 from core.coverage.measured_pixel import FILL_RULE
 from core.coverage.measured_triangles import FORMATS, sliver
 from core.methods import table
-from core.study.stability import Outcome, StressCancelledError, experiments
+from core.study.stability import Outcome, StudyCancelledError, experiments
 from core.study.workloads import flat_scene
 from tests.covering import is_everything
 from tests.stability.failing_cells import FAILING_CELLS
@@ -127,7 +127,7 @@ def test_bad_pixels_empty_scenes_and_cancelling_are_told() -> None:
         pixel_in_formats(scene, settings, (64, 0), as_given)
     with pytest.raises(ValueError, match="got one without any"):
         pixel_in_formats(flat_scene(np.empty((0, 3, 4)), (4, 4)), settings, (0, 0), as_given)
-    with pytest.raises(StressCancelledError):
+    with pytest.raises(StudyCancelledError):
         pixel_in_formats(scene, settings, (1, 1), as_given, lambda: True)
 
 

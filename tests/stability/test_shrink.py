@@ -10,7 +10,7 @@ from core import ClipScene, Settings
 from core.study.case_text import scene_text
 from core.study.cases import digit_count, minimize, simpler_numbers
 from core.study.experiment import SEGMENTS, TRIANGLES, first_edge, scene_of_segment
-from core.study.stability import Outcome, StressCancelledError, Verdict, experiments
+from core.study.stability import Outcome, StudyCancelledError, Verdict, experiments
 from core.study.stress import shrink_cell
 from tests.stability.shrunk_tests import run_test, shrunk_of
 
@@ -129,7 +129,7 @@ def test_runs_are_bounded_and_can_be_cancelled() -> None:
     name, method, place, _ = CASES[1]
     assert shrink_cell(name, method, place, most_runs=20).run_count <= 21
     answers = iter([False] * 5 + [True])
-    with pytest.raises(StressCancelledError):
+    with pytest.raises(StudyCancelledError):
         shrink_cell(name, method, place, is_cancelled=lambda: next(answers))
 
 

@@ -14,7 +14,7 @@ from core.coverage.measured_pixel import DialReading
 from core.explain.number_text import number_text
 from core.records.words import numbered
 from core.scene import ClipScene
-from core.study.stability import StressCancelledError
+from core.study.stability import StudyCancelledError
 from widgets.experiments.case_pictures import CaseView, DialRow
 
 # One pixel in every number format, in words: the rows of the table, and the sentence above it.
@@ -117,7 +117,7 @@ class CasePresenter(QObject):
         """The case that is shown, as it was run or made small."""
         self._steps_when_found = False
         self._looking, self._reading = jobs.add_job(), jobs.add_job()
-        self._shrinking = jobs.add_job((ValueError, MemoryError, StressCancelledError))
+        self._shrinking = jobs.add_job((ValueError, MemoryError, StudyCancelledError))
         self._looking.succeeded.connect(self._show_case)
         self._looking.failed.connect(self._show_failure)
         self._shrinking.succeeded.connect(self._show_shrunk)

@@ -141,7 +141,7 @@ class BandWorkers:
     def __init__(self, processes: int | None = None, *, always: bool = False) -> None:
         if processes is not None and processes < 1:
             raise ValueError(f"processes must be 1 or more, got {processes}")
-        self.processes = min(DEFAULT_PROCESSES, _core_count()) if processes is None else processes
+        self.processes = min(DEFAULT_PROCESSES, usable_cores()) if processes is None else processes
         self._always = always
         self._workers: list[Worker] = []
         self._cuts = even_cuts(self.processes)
@@ -380,8 +380,8 @@ def _close_all(workers: list[Worker]) -> None:
         workers.pop().close()
 
 
-def _core_count() -> int:
-    # Those this process may use, where the system knows the difference.
+def usable_cores() -> int:
+    """Return how many cores this process may use, or, where the system does not say, how many there are."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
