@@ -87,7 +87,7 @@ class StepOpening(QObject):
                 comparing.set_differences(differences)
             self._page.show_view("compare")
             if scene is None and pixel is not None:
-                comparing.meet_at(pixel)
+                comparing.meeting.meet_at(pixel)
         self._page.column.show_step()
         self.opened.emit()
 

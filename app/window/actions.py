@@ -174,7 +174,12 @@ ACTIONS: tuple[Action, ...] = (
     ),
     *rows_of("step", VIEWING, "View", whole_window)(
         Row("edit_line", "F2", "Edit the line of the listing", lambda w: w.page.editing.edit_chosen_line()),
-        Row("divergence", "D", "First divergence of A and B", lambda w: w.page.comparing.go_to_divergence()),
+        Row(
+            "divergence",
+            "D",
+            "First divergence of A and B",
+            lambda w: w.page.comparing.meeting.go_to_divergence(),
+        ),
     ),
     *rows_of("step", VIEWING, "View/Panes", whole_window)(*map(pane_row, PANES)),
     *rows_of("step", VIEWING, "View", whole_window)(

@@ -13,11 +13,6 @@ FOLDER = Path(core.__file__).parent
 MODULES = sorted(module.name for module in pkgutil.walk_packages([str(FOLDER)], "core."))
 ARRAY_WORDS = ("Floats", "Integers", "Flags", "Singles", "Bytes", "NDArray", "ndarray", "ArrayLike")
 LINE_LIMIT = 450
-TOO_LONG = {
-    "app/pages/step/ab/presenter.py",
-    "app/pages/step/listing_presenter.py",
-}
-"""Files that hold more than one concept still: each wants to be taken apart, and no other joins them."""
 TOPICS = (
     *("clipping", "coverage", "culling", "depth", "framebuffer", "interpolation"),
     *("lines", "shading", "spans", "textures", "transform", "trees", "visibility"),
@@ -55,7 +50,7 @@ def test_files_are_of_readable_size() -> None:
     lengths = {
         path.relative_to(FOLDER.parent).as_posix(): len(path.read_bytes().splitlines()) for path in files
     }
-    assert {file for file, length in lengths.items() if length > LINE_LIMIT} == TOO_LONG
+    assert {file for file, length in lengths.items() if length > LINE_LIMIT} == set()
 
 
 def test_modules_say_what_they_are() -> None:

@@ -263,7 +263,7 @@ class LessonStates(QObject):
                 page.show_desk_panes(panes)  # Before the pictures of A | B find their places.
             self._show_view(state)
         if state.pixel is not None and state.other is not None:
-            page.comparing.meet_at(state.pixel)
+            page.comparing.meeting.meet_at(state.pixel)
         page.column.show_step()
 
     def _show_view(self, state: State) -> None:

@@ -54,7 +54,7 @@ def show_mistake(page: "StepPage", state: State, name: str) -> None:
     page.show_view("compare")
     if state.pixel is not None:
         page.session.set_pin(state.pixel)
-        page.comparing.meet_at(state.pixel)
+        page.comparing.meeting.meet_at(state.pixel)
         page.tell("")
 
 

@@ -1,19 +1,16 @@
 """Change the line: the listing of a step is edited, and side B of A | B draws what the edited one draws."""
 
 from collections.abc import Iterable
-from functools import partial
 from html import escape
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
-from app.background import Job
 from app.files.state_models import DRAFT_LIMIT, DraftRecord
 from app.pages.step.ab.presenter import ComparePresenter
 from app.pages.step.inspector_column import InspectorColumn
 from app.pages.step.inspector_presenter import InspectorPresenter, load_stages
-from app.pages.step.kept_look import line_positions
-from app.pages.step.stepping_presenter import nearest
+from app.pages.step.listing_outcome import ListingOutcome
 from app.session.document import Document
 from app.session.moment import Moment, Step
 from app.session.session import Session
@@ -24,7 +21,6 @@ from widgets.inspector.listing_pane import A, B, ListingPane, PaneHead
 
 if TYPE_CHECKING:
     from app.pages.step.page import StepPage
-    from app.session.named_mistakes import Outcome
     from core.edits import Edit  # As in app.session.document.
 
 HIDDEN = "While you predict, or a question is asked about this scene, no listing can be edited."
@@ -51,8 +47,6 @@ LISTING_CHANGES = "all changes of this listing"
 OLD_STEP = " The step and its numbers are those of the last version that ran."
 HAS_NONE = "This step has no listing."
 SLEEPS = "Your edited listing stays, but it does not run on this scene"
-FIRST = '<a href="first">First difference</a>'
-SAME = "On this scene your version draws the same picture as the method."
 
 
 class ListingPresenter(QObject):
@@ -82,10 +76,7 @@ class ListingPresenter(QObject):
         """The scene of an exercise that asks for a listing; ``None``: none does."""
         self._lent: tuple[Edit, ...] = ()
         """Edits that an exercise has brought along."""
-        self._naming = Job(self)
-        """Looks for the mistake that an edit is."""
-        self._naming.succeeded.connect(self._name_mistake)
-        self._naming.failed.connect(self._leave_unnamed)
+        self.outcome = ListingOutcome(session, comparing, column.code, page)
         self._later = QTimer(self)
         self._later.setSingleShot(True)
         self._later.timeout.connect(self._show_head_later)
@@ -102,7 +93,6 @@ class ListingPresenter(QObject):
         pane.editor.textChanged.connect(self._follow_text)
         pane.editor.text_typed.connect(self._try)
         pane.editor.left.connect(self.leave)
-        pane.link_clicked.connect(self._follow_link)
 
     # Which side.
 
@@ -207,12 +197,12 @@ class ListingPresenter(QObject):
             edit = edit_of(document, self._place)
             self._pane.editor.show_text(edit.text if edit else original(*self._place).source)
             self._pane.editor.show_problem(None)
-        self._naming.cancel()
+        self.outcome.cancel()
         self._pane.show_message("")
         self._comparing.show_old(False)
         self._show_head(self._inspector.shown_listing)
         if document.edits and not (sleeps or moment.is_predicting or moment.is_asked_about):
-            self._tell_outcome()
+            self.outcome.tell()
 
     def _show_head(self, listing: Listing | None) -> None:
         """Offer what can be done with the listing that is shown."""
@@ -406,7 +396,7 @@ class ListingPresenter(QObject):
         edited = with_edit(document, Edit(*self._place, text, known.name if known is not None else ""))
         if edited.edits == document.edits:
             self._show_right()
-            self._tell_outcome()
+            self.outcome.tell()
         elif not edited.edits:
             self._session.edit(edited)
         else:
@@ -429,7 +419,7 @@ class ListingPresenter(QObject):
     @Slot(object)
     def _show_problem(self, error: Exception) -> None:
         """Say why what is typed does not run, at its place."""
-        self._naming.cancel()
+        self.outcome.cancel()
         from core.lanes.problem import Problem
 
         place = (error.line, error.column) if isinstance(error, Problem) else None
@@ -438,84 +428,9 @@ class ListingPresenter(QObject):
         self._comparing.show_old(True)
         self.drafts_changed.emit()
 
-    # Where A and B part.
-
-    def _tell_outcome(self) -> None:
-        """Offer the way to the first difference, and look for the mistake that the edit is."""
-        from app.session.named_mistakes import outcome_of
-
-        self._pane.show_message(FIRST)
-        self._naming.call(partial(outcome_of, self._session.document))
-
-    @Slot(object)
-    def _name_mistake(self, outcome: "Outcome") -> None:
-        """Say that an edit draws what a mistake of the shelf draws, or what the method draws."""
-        from app.session.named_mistakes import exercise_about, lesson_about
-        from core.edits import EDITABLE
-
-        if self._pane.editor.has_problem or not self._session.document.edits:
-            return
-        if outcome.is_right:
-            self._pane.show_message(SAME)
-            return
-        if outcome.mistake is None:
-            return
-        name = outcome.mistake.name
-        links = [FIRST]
-        if exercise := exercise_about(EDITABLE[self._session.document.edits[-1].part].family):
-            links.append(f'<a href="exercise/{exercise}">Exercise</a>')
-        if lesson := lesson_about(name):
-            links.append(f'<a href="lesson/{lesson[0]}/{lesson[1]}">Lesson</a>')
-        alike = f"On this scene it draws the same as the mistake “{name.replace('-', ' ')}”"
-        said = f"{alike}: {escape(outcome.mistake.sentence)}"
-        self._pane.show_message(f"{said} {' · '.join(links)}")
-
-    @Slot(object)
-    def _leave_unnamed(self, error: Exception) -> None:
-        """Say nothing more: why B cannot be drawn stands in its place."""
-
-    @property
-    def is_working(self) -> bool:
-        """Whether the mistake that an edit is is being looked for."""
-        return self._naming.is_running
-
-    def stop(self) -> None:
-        """End looking for mistakes."""
-        self._naming.shut_down()
-
-    @Slot(str)
-    def _follow_link(self, link: str) -> None:
-        """Go where a link of the sentence leads."""
-        kind, *names = link.split("/")
-        if kind == "first":
-            self._page.show_view("compare")
-            self._comparing.go_to_first_difference()
-        elif kind == "lesson":
-            self._page.lesson_requested.emit(names[0], int(names[1]))
-        else:
-            self._page.link_requested.emit(link)
-
     @Slot(int)
     def _run_to_line(self, line: int) -> None:
-        """Go to the next step of B that is of a line: one without a label is run with the labelled one before it."""
-        step, listing = self._comparing.second, self._inspector.shown_listing
-        if step is None or listing is None:
-            return
-        trace, begin = step.stage_trace, step.cursor.position
-        if line in listing.lines.values() or not isinstance(listing, EditedListing):
-            at = nearest(line_positions(trace, listing.name, line), begin, 1)
-            if at is None:
-                self._page.tell(f"No further step at line {line} in this stage.")
-            else:
-                self._comparing.go_to_second(at)
-            return
-        from core.explain.edited import position_that_runs
-
-        at, last = position_that_runs(trace, listing, line, begin)
-        if at is not None:
-            self._comparing.go_to_second(at)
-            self._page.tell(f"Line {line} runs in this step.")
-        elif last < trace.steps.count:
-            self._page.tell(f"Line {line} does not run in the next {last - begin:,} steps.")
-        else:
-            self._page.tell(f"No further step runs line {line} in this stage.")
+        """Go to the next step of B that is of a line."""
+        listing = self._inspector.shown_listing
+        if listing is not None:
+            self._comparing.meeting.run_to_line(listing, line)

@@ -102,7 +102,7 @@ class StepPage(Page):
         self.grids.look_changed.connect(self.look_changed)
         self.comparing.look_changed.connect(self.look_changed)
         self.shading.comparison_requested.connect(self._compare_scene)
-        self.comparing.divergence_told.connect(self.shading.show_divergence)
+        self.comparing.meeting.told.connect(self.shading.show_divergence)
         self.views.refused.connect(self.edit_refused)
         self.lessons = LessonPresenter(self)
         self.lessons.place_changed.connect(self._follow_lesson)
@@ -343,7 +343,7 @@ class StepPage(Page):
                 break
             QThread.msleep(10)
         self.settle_layouts()
-        parts = (self.lessons, self.editing, self.shading)
+        parts = (self.lessons, self.editing.outcome, self.shading)
         while self._is_drawing() or self.comparing.is_drawing or any(part.is_working for part in parts):
             QCoreApplication.processEvents()
             QThread.msleep(5)
@@ -422,7 +422,7 @@ class StepPage(Page):
         """Play no further, and end drawing in the background."""
         self.timeline.show_playing(False)
         self.comparing.stop()
-        self.editing.stop()
+        self.editing.outcome.stop()
         self.shading.stop()
         self.lessons.stop()
         self.inspector.ahead.stop()

@@ -42,7 +42,7 @@ class NewUser:
         act()
         self.steps += 1
         files, comparing = self.window.files, self.page.comparing
-        self._qtbot.waitUntil(lambda: not (files.job.is_running or comparing._search.is_running))
+        self._qtbot.waitUntil(lambda: not (files.job.is_running or comparing.meeting.is_searching))
         self.page.settle()
         QApplication.processEvents()
         said = f"step {self.steps}: {intent}"

@@ -133,7 +133,7 @@ def test_every_key_does_something(
         window.page.grid.setFocus()
         before = seen(window)
         QTest.keySequence(window, QKeySequence(action.keys[0]))
-        qtbot.waitUntil(lambda: not (files.job.is_running or comparing._search.is_running))
+        qtbot.waitUntil(lambda: not (files.job.is_running or comparing.meeting.is_searching))
         idle += [action.name] if seen(window) == before else []
     assert idle == []
 

@@ -3,43 +3,29 @@
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
-from functools import lru_cache, partial
+from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal, Slot
 
-from app.background import Job
 from app.pages.page_bar import Page
 from app.pages.step.ab.lock_step import LockStep
-from app.pages.step.ab.pictures import differing_buffer, divergence_text, nothing, pictured
-from app.pages.step.ab.side_b import BoundedRun, EditedB, SideB, first_difference, settings_difference
+from app.pages.step.ab.meeting import Meeting
+from app.pages.step.ab.runs import DrawnB, EditedB
+from app.pages.step.ab.shown_runs import ShownRuns
+from app.pages.step.ab.side_b import SideB, first_difference, settings_difference
 from app.pages.step.grid_presenter import VertexDrags
-from app.pages.step.grid_records import geometry_of
 from app.session.document import Document
-from app.session.moment import Cursor, Moment, Pixel, Step
+from app.session.moment import Moment, Step
 from app.session.session import Session
-from app.session.tracing import QUICK_SECONDS, trace_now
-from core import STAGES, Settings, Trace
+from core import Settings, Trace
 from core.records.steps import Level
 from core.scene import AnyScene
 from core.settings import WHOLE_NUMBERS
-from widgets.grid.compare_view import CompareView, Side
-from widgets.grid.geometry import GridGeometry
+from widgets.grid.compare_view import CompareView
 
 if TYPE_CHECKING:
     from core.edits import Edit  # As in app.session.document.
-    from core.study.divergence import Divergence  # Looked for long after the window is open.
-
-PREDICTING = "Hidden until the answer is shown."
-SHOWN_ONLY = (
-    "B is shown for comparison only, as a listing in print or with a mistake: A keeps its own method."
-)
-EDITED = "B runs your edited listing, and A keeps the method itself, so that both can be compared."
-
-OLD = "B is the last version that ran."
-
-CLIPS = ", clips the near plane"
-"""What a run does that needs w > 0, after its name."""
 
 
 class ComparePresenter(QObject):
@@ -49,8 +35,6 @@ class ComparePresenter(QObject):
     """B is shown where it is now, or that it cannot be shown."""
     look_changed = Signal()
     """B differs otherwise, or another buffer is compared."""
-    divergence_told = Signal(str)
-    """Where both runs differ first, in words."""
 
     def __init__(self, session: Session, view: CompareView, page: Page) -> None:
         super().__init__(page)
@@ -60,10 +44,7 @@ class ComparePresenter(QObject):
         """B as it was chosen; ``None``: it follows the stage."""
         self._suggested = SideB()
         """B as it follows the stage."""
-        self._buffers: dict[str, str] = {}
-        """Name of the buffer in which both are compared, by stage, where it was chosen."""
-        self._fitting = ""
-        """Name of the buffer that shows what an edit or a mistake does, where none was chosen; empty: the first one."""
+        self._shown = ShownRuns(view)
         self._is_active = self._is_held = False
         self._ready: tuple[Document, Trace] | None = None
         """What B may draw, traced before it is wanted."""
@@ -71,19 +52,12 @@ class ComparePresenter(QObject):
         """The run of B; ``None``: it cannot be drawn, is being drawn, or is not shown."""
         self._steps: LockStep | None = None
         self._refusal = ""
-        self._is_old = False
-        """Whether B is the last run that went well, of a text that is another one by now."""
         self._goal: Callable[[], object] | None = None
         """What is done once B is drawn."""
-        self._outlines = lru_cache(maxsize=4)(_outlines)
-        self._job, self._search = Job(self), Job(self)
-        self._job.succeeded.connect(self._take)
-        self._job.failed.connect(self._refuse)
-        self.edited, self._bounded = EditedB(self), BoundedRun(self)
-        self._bounded.done.connect(self._take)
-        self._bounded.failed.connect(self._refuse)
-        self._search.succeeded.connect(self._land)
-        self._search.failed.connect(self._tell_no_divergence)
+        self.edited, self._drawing = EditedB(self), DrawnB(self)
+        self._drawing.drawn.connect(self._take)
+        self._drawing.failed.connect(self._refuse)
+        self.meeting = Meeting(self, session, page)
         # Only the document's own triangle has handles here.
         self._drags = VertexDrags(
             session, view.linked.grids, lambda: None, session.edit, "drag in A | B", page
@@ -93,7 +67,7 @@ class ComparePresenter(QObject):
         view.reset_requested.connect(self._reset)
         view.swap_requested.connect(self._swap)
         view.use_requested.connect(self._use)
-        view.divergence_requested.connect(self.go_to_divergence)
+        view.divergence_requested.connect(self.meeting.go_to_divergence)
         view.linked.pixel_hovered.connect(session.hover_place)
         view.linked.pixel_left.connect(session.end_hover)
         view.linked.pixel_clicked.connect(session.pin_place)
@@ -107,13 +81,14 @@ class ComparePresenter(QObject):
         return chosen if chosen is not None and chosen.is_beside(self._session.document) else None
 
     @property
-    def _b(self) -> SideB:
+    def b(self) -> SideB:
+        """What B is."""
         return self.edited.side or self._choice or self._suggested
 
     @property
     def other(self) -> Settings:
         """Settings of B: those of the page, but for what it does otherwise."""
-        return self._b.document(self._session.document).settings
+        return self.b.document(self._session.document).settings
 
     @property
     def differences(self) -> Mapping[str, str | int]:
@@ -124,12 +99,22 @@ class ComparePresenter(QObject):
     @property
     def printed(self) -> str:
         """Name of the listing as printed that B runs; empty: none."""
-        return self._b.printed
+        return self.b.printed
 
     @property
     def buffer(self) -> str:
         """Name of the buffer in which both are compared in the stage at hand; empty: the first one."""
-        return self._buffers.get(self._session.cursor.stage, "")
+        return self._shown.buffers.get(self._session.cursor.stage, "")
+
+    @property
+    def is_active(self) -> bool:
+        """Whether both runs are shown, or would be."""
+        return self._is_active
+
+    @property
+    def runs(self) -> tuple[Moment, Trace | None]:
+        """The moment of A that B stands beside, and the run of B; ``None``: it has none."""
+        return self._moment, self._second
 
     @property
     def second(self) -> Step | None:
@@ -150,7 +135,7 @@ class ComparePresenter(QObject):
         mine, other = settings_as_printed(name, self._session.latest)
         if mine != self._session.latest.settings:
             self._session.edit(replace(self._session.latest, settings=mine))
-        goal = self._go_to_other_pixel if seeks else None
+        goal = self.meeting.go_to_other_pixel if seeks else None
         self._become(SideB(mine.differences(other), title_as_printed(name), name), goal)
 
     def set_differences(self, differences: Mapping[str, str | int]) -> None:
@@ -168,13 +153,17 @@ class ComparePresenter(QObject):
         """
         mine = self._session.document.scene
         scenes = None if scene is mine else (mine, scene)
-        goal = partial(self.go_to_divergence, self._session.cursor.stage) if seeks else None
+        goal = partial(self.meeting.go_to_divergence, self._session.cursor.stage) if seeks else None
         self._become(SideB(differences, title, scenes=scenes), goal)
 
     def begin_at(self, pixel: tuple[int, int] | None) -> None:
         """Go to a pixel, or to the first step in which both differ, once B is drawn."""
         stage = self._session.cursor.stage
-        self._goal = partial(self.go_to_divergence, stage) if pixel is None else partial(self.meet_at, pixel)
+        self._goal = (
+            partial(self.meeting.go_to_divergence, stage)
+            if pixel is None
+            else partial(self.meeting.meet_at, pixel)
+        )
         self.refresh(self._session.moment)
 
     def begin_anew(self, moment: Moment) -> None:
@@ -192,12 +181,12 @@ class ComparePresenter(QObject):
 
     def look_only_at(self, stage: str, name: str) -> None:
         """Compare in a buffer while a stage is shown, and in other stages in what shows first; empty: there, too."""
-        self._buffers = {stage: name} if name else {}
+        self._shown.buffers = {stage: name} if name else {}
 
     @Slot(str)
     def set_buffer(self, name: str) -> None:
         """Compare in another buffer, whenever the stage at hand is shown."""
-        self._buffers[self._session.cursor.stage] = name
+        self._shown.buffers[self._session.cursor.stage] = name
         self._show()
         self.look_changed.emit()
 
@@ -205,7 +194,7 @@ class ComparePresenter(QObject):
     def _choose(self, family: str, value: str) -> None:
         if value:  # Else the printed listing is still chosen.
             chosen: str | int = int(value) if family in WHOLE_NUMBERS else value
-            self.set_differences({**self._b.named(), family: chosen})
+            self.set_differences({**self.b.named(), family: chosen})
 
     @Slot()
     def _reset(self) -> None:
@@ -214,7 +203,7 @@ class ComparePresenter(QObject):
     @Slot()
     def _swap(self) -> None:
         mine = self._session.document.settings
-        self._edit({family: getattr(mine, family) for family in self._b.differences})
+        self._edit({family: getattr(mine, family) for family in self.b.differences})
 
     @Slot()
     def _use(self) -> None:
@@ -242,8 +231,8 @@ class ComparePresenter(QObject):
         self.refresh(self._session.moment)
         if not is_active:
             self._goal = None
-        elif self._b.differences:
-            self._view.show_family(next(iter(self._b.differences)))
+        elif self.b.differences:
+            self._view.show_family(next(iter(self.b.differences)))
 
     @contextmanager
     def held(self, ready: tuple[Document, Trace] | None = None) -> Iterator[None]:
@@ -266,10 +255,9 @@ class ComparePresenter(QObject):
         if self._is_held:
             return
         before, self._moment = self._moment, moment
-        self._job.cancel()
-        self._bounded.cancel()
-        self._search.cancel()
-        kept, self._is_old = (self._second, self._steps), False
+        self._drawing.cancel()
+        self.meeting.cancel()
+        kept, self._shown.is_old = (self._second, self._steps), False
         self._second, self._steps, self._refusal = None, None, ""
         document, stage = moment.document, moment.cursor.stage
         refusal = self.edited.find(document)
@@ -283,7 +271,7 @@ class ComparePresenter(QObject):
         if self._choice is None and self.edited.side is None:
             shown = self._suggested.differences
             self._suggested = SideB(first_difference(document, moment.trace, stage, shown))
-        b, other = self._b, self._b.document(document)
+        b, other = self.b, self.b.document(document)
         self._view.show_settings(b.shown_settings(document), frozenset(b.differences))
         if (self._choice is None or b.edits) and b.differences:
             self._view.show_family(next(iter(b.differences)))
@@ -292,46 +280,28 @@ class ComparePresenter(QObject):
             self._take(self._ready[1])
             return
 
-        def work() -> Trace:
-            """Trace B up to the stage that is shown."""
-            other.check_length()
-            trace = other.make_trace()
-            trace.stage(stage)
-            return trace
-
-        is_long = other.estimated_seconds > QUICK_SECONDS
-        if b.edits:
-            if (tried := self.edited.run_of(document)) is not None:
-                self._take(tried)
-                return
-            if before.trace is moment.trace and before.cursor.stage == stage:
-                # The last picture stays until the next one is there.
-                self._second, self._steps = kept
-            self._refusal = "Drawing B …"
-            self._bounded.do(partial(trace_now, other, stage), is_long=is_long)
-            if self._bounded.is_running:
-                self._show()
+        if b.edits and (tried := self.edited.run_of(document)) is not None:
+            self._take(tried)
             return
-        if is_long:
+        if b.edits and before.trace is moment.trace and before.cursor.stage == stage:
+            # The last picture stays until the next one is there.
+            self._second, self._steps = kept
+        self._drawing.draw(other, stage, is_typed=bool(b.edits))
+        if self._drawing.is_running:
             self._refusal = "Drawing B …"
             self._show()
-            self._job.call(work)
-            return
-        try:
-            self._take(work())
-        except ValueError as error:
-            self._refuse(error)
 
     @Slot(object)
     def _take(self, second: Trace) -> None:
         moment, self._second = self._moment, second
-        b = self._b
-        has_fault = bool(b.edits) or (bool(b.title) and not b.printed)
-        self._fitting = (
-            differing_buffer(moment, Step(second, replace(moment.cursor, position=0))) if has_fault else ""
-        )
+        self._shown.fit(moment, second, self.b)
         self._steps = LockStep(moment.stage_trace, second.stage(moment.cursor.stage), moment.cursor)
         self._show()
+        self._reach_goal()
+
+    def reach(self, goal: Callable[[], object]) -> None:
+        """Do something as soon as B is drawn."""
+        self._goal = goal
         self._reach_goal()
 
     def _reach_goal(self) -> None:
@@ -347,9 +317,8 @@ class ComparePresenter(QObject):
 
     def stop(self) -> None:
         """End drawing in the background."""
-        self._job.shut_down()
-        self._search.shut_down()
-        self._bounded.stop()
+        self.meeting.stop()
+        self._drawing.stop()
         self.edited.stop()
 
     # Edited listings.
@@ -368,30 +337,15 @@ class ComparePresenter(QObject):
     @property
     def is_drawing(self) -> bool:
         """Whether B is being drawn in the background."""
-        return self._job.is_running or self._bounded.is_running or self.edited.is_running
+        return self._drawing.is_running or self.edited.is_running
 
     def cancel_drawing(self) -> None:
         """Draw B no further."""
-        self._job.cancel()
         self.edited.cancel()
-        if self._bounded.is_running:
-            self._bounded.cancel()
+        if self._drawing.is_running:
+            self._drawing.cancel()
             self._refusal = "B was stopped."
             self._show()
-
-    @Slot()
-    def go_to_first_difference(self) -> None:
-        """Put both runs at the first pixel that another listing draws otherwise, or at the first step that differs."""
-        from core.edits import EDITABLE
-
-        stages = [EDITABLE[edit.part].stage for edit in self._b.edits]
-        if not stages:
-            self.go_to_divergence()
-            return
-        first = min(stages, key=STAGES.index)
-        is_line = any(edit.part == "line" for edit in self._b.edits)
-        self._goal = self._go_to_other_pixel if is_line else partial(self.go_to_divergence, first)
-        self._reach_goal()
 
     def go_to_second(self, position: int) -> None:
         """Put B at a position of the stage at hand, and A beside it."""
@@ -413,8 +367,8 @@ class ComparePresenter(QObject):
 
     def show_old(self, is_old: bool) -> None:
         """Say that B is the last run that went well, of a text that is another one by now; or take that back."""
-        if is_old != self._is_old:
-            self._is_old = is_old
+        if is_old != self._shown.is_old:
+            self._shown.is_old = is_old
             self._show()
 
     # Stepping.
@@ -442,73 +396,13 @@ class ComparePresenter(QObject):
         else:
             self._take(self._second)
 
-    @Slot()
-    def go_to_divergence(self, since: str = "") -> None:
-        """Search for the first step that differs, at last in the stages before ``since``, and put both runs there.
-
-        Empty: since the first stage of the settings that differ. What differs before it only follows from them.
-        """
-        from core.study.divergence import diverge
-
-        if self._second is None:
-            self._page.tell(self._refusal if self._is_active else "Show A | B first (Ctrl+D).")
-        else:
-            first, second = self._moment.trace, self._second
-            begin = since or self._b.first_stage
-            self._search.call(partial(diverge, first, second, by_outcome=True, since=begin))
-
-    @Slot(object)
-    def _land(self, found: "Divergence | None") -> None:
-        if self._second is None:
-            return
-        said = divergence_text(found, self._moment.trace, self._second)
-        if found is not None:
-            if found.pixel is not None:
-                self._session.set_pin(found.pixel)
-            self._put_at(found.stage, *found.rows)
-        self._page.tell(said)
-        self.divergence_told.emit(said)
-
-    @Slot(object)
-    def _tell_no_divergence(self, error: Exception) -> None:
-        self._page.tell(f"A and B cannot be compared: {error}")
-
-    def _go_to_other_pixel(self) -> None:
-        """Put both runs at the first step that draws another pixel, or else at their first divergence."""
-        from app.session.listing_runs import first_other_pixel
-
-        assert self._second is not None
-        found = first_other_pixel(self._moment.trace.stage("raster"), self._second.stage("raster"))
-        if found is None:
-            self.go_to_divergence("raster")
-        else:
-            self._put_at("raster", *found[0])
-            self._page.tell(f"{found[1]} Ctrl+[ goes back.")
-
-    def meet_at(self, pixel: Pixel) -> None:
-        """Put both runs at the first step about a pixel in which they differ, or else at the first one about it."""
-        self._search.cancel()
-        self._goal = partial(self._meet, pixel)
-        self._reach_goal()
-
-    def _meet(self, pixel: Pixel) -> None:
-        from core.study.divergence import stage_divergence
-
-        assert self._second is not None
-        stage = self._moment.cursor.stage
-        first, second = self._moment.stage_trace, self._second.stage(stage)
-        found = stage_divergence(first, second, by_outcome=True)
-        about = [run.rows_at_pixel(*pixel) for run in (first, second)]
-        mine, theirs = (int(rows[0]) if len(rows) else None for rows in about)
-        self._put_at(stage, *(found.rows if found is not None and found.pixel == pixel else (mine, theirs)))
-
-    def _put_at(self, stage: str, mine: int | None, theirs: int | None) -> None:
+    def put_at(self, stage: str, mine: int | None, theirs: int | None) -> None:
         """Put both runs just after a row of each; one without a row goes where it is beside the other one."""
         second = self._second
         if second is None or (mine is None and theirs is None):
             return
         # B is what was compared, whatever stage it shows in.
-        self._chosen = self._chosen if self.edited.side is not None else self._b
+        self._chosen = self._chosen if self.edited.side is not None else self.b
         start = replace(self._moment.cursor, stage=stage, position=0)
         steps = LockStep(self._moment.trace.stage(stage), second.stage(stage), start)
         steps.land(mine, theirs)
@@ -516,48 +410,14 @@ class ComparePresenter(QObject):
         self._steps = steps
         self._show()
 
-    # Showing.
-
-    def _titles(self, moment: Moment) -> tuple[str, str]:
-        """Return A and B in words, with the clipping that only one of them needs."""
-        mine, other = self._b.titles(moment.document)
-        if self._second is None:
-            return mine, other
-        needs = [bool(run.source.geometry.clipping_inserted) for run in (moment.trace, self._second)]
-        clips = [CLIPS if need and needs[0] != needs[1] else "" for need in needs]
-        return mine + clips[0], other + clips[1]
-
     def _show(self) -> None:
         """Show both runs where they are, and their difference."""
-        if not self._is_active:
-            return
-        moment, second = self._moment, self.second
-        if moment.is_predicting:
-            blanks = (Side(name, name, reason=PREDICTING) for name in "AB")
-            self._view.show_sides(*blanks, nothing(PREDICTING))
-            return
-        texts = ("", "") if self._steps is None else (self._steps.text(0), self._steps.text(1))
-        sides = [
-            Side(name, f"{name}: {title}", text, reason=self._refusal)
-            for name, title, text in zip("AB", self._titles(moment), texts, strict=True)
-        ]
-        self._view.show_refusal((EDITED if self._b.edits else SHOWN_ONLY) if self._b.title else "")
-        steps: list[Step] = [moment] if second is None else [moment, second]
-        wanted = self._buffers.get(moment.cursor.stage, "") or self._fitting
-        buffers, shown, pictures = pictured(sides, steps, self._outlines, wanted, bool(self.printed))
-        self._view.buffer_box.show_buffers(buffers, shown)
-        if self._is_old:
-            pictures = pictures[0], replace(pictures[1], is_old=True), nothing(OLD)
-        self._view.show_sides(*pictures)
-        self.refresh_pointing(moment)
-        self.second_shown.emit()
+        if self._is_active:
+            self._shown.show(self._moment, self.second, self._steps, self.b, self._refusal)
+            if not self._moment.is_predicting:
+                self.second_shown.emit()
 
     def refresh_pointing(self, moment: Moment) -> None:
         """Mark pin and hover."""
         if self._is_active:
-            self._view.linked.show_pointing(*moment.pointed_places)
-
-
-def _outlines(trace: Trace, cursor: Cursor) -> GridGeometry:
-    """Return the triangles of a run."""
-    return geometry_of(Step(trace, cursor))
+            self._shown.show_pointing(moment)

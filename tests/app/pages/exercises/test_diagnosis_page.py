@@ -70,7 +70,7 @@ def test_the_mistake_of_a_picture_is_named_marked_and_stepped(
     with qtbot.waitSignal(small.opening.opened):
         QTest.mouseClick(view.run_buttons[0], LEFT)
     comparing = small.page.comparing
-    qtbot.waitUntil(lambda: not comparing._search.is_running)
+    qtbot.waitUntil(lambda: not comparing.meeting.is_searching)
     assert small.page.current_view() == "compare"
     differing = (right.primitive != wrong.primitive).nonzero()
     assert small.session.cursor.stage == "raster", "the pixel, not the rule of an edge"

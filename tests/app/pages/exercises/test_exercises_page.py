@@ -60,7 +60,7 @@ def test_pixels_are_painted_checked_and_the_mistake_is_stepped(
     with qtbot.waitSignal(window.opening.opened):
         QTest.mouseClick(shown.question_view.twin_button, LEFT)
     comparing = window.page.comparing
-    qtbot.waitUntil(lambda: not comparing._search.is_running)
+    qtbot.waitUntil(lambda: not comparing.meeting.is_searching)
     assert window.pages.current_name == "step"
     assert window.page.current_view() == "compare"
     assert comparing.other.pixel_center == "integer"

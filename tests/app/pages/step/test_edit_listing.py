@@ -15,6 +15,7 @@ from PySide6.QtWidgets import QLabel, QMenu, QPushButton
 
 from app.files.open_any import open_any
 from app.files.state_files import EXTENSION, load_state, save_state
+from app.pages.step.ab.shown_runs import titles
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import Settings
@@ -402,7 +403,8 @@ def test_an_edit_that_does_not_fit_the_scene_sleeps(window: MainWindow) -> None:
     assert "D" in pane_of(window).listing.toPlainText()
     assert pane_of(window).message.text() == ""
     window.page.show_view("compare")
-    sides = window.page.comparing._titles(window.session.moment)
+    comparing = window.page.comparing
+    sides = titles(window.session.moment, comparing.second, comparing.b)
     assert "Bounding box" not in "".join(sides)
     assert "cannot be drawn" not in window.page.comparing.refusal
     assert pane_of(window).note.text().startswith("Edited: inside test")

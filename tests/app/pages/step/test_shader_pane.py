@@ -276,9 +276,9 @@ def test_shaders_beside_the_built_in_shading_and_beside_others(lab, qtbot):
     assert comparing.other.shading == "phong"
     mine, other = (step.source.surface.color for step in (lab.session.trace, comparing.second.trace))
     np.testing.assert_allclose(mine, other, atol=1e-6)
-    assert comparing._b.titles(lab.session.document) == ("Phong shading", "Built-in Phong shading")
+    assert comparing.b.titles(lab.session.document) == ("Phong shading", "Built-in Phong shading")
     _choose(pane._beside, "toon")
-    qtbot.waitUntil(lambda: comparing._b.title == "Toon shading" and comparing.second is not None)
+    qtbot.waitUntil(lambda: comparing.b.title == "Toon shading" and comparing.second is not None)
     assert pane._beside.currentIndex() == 0
     qtbot.waitUntil(lambda: "cosine is the first variable that differs" in pane.message, timeout=10_000)
 

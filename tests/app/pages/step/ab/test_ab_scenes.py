@@ -128,10 +128,10 @@ def test_a_mistake_in_the_scene_stays_beside_its_scene_only(window: MainWindow, 
     window.session.open(document)
     window.page.comparing.show_mistake({}, moved(document).scene, "with the mistake: one corner")
     window.page.show_view("compare")
-    qtbot.waitUntil(lambda: not window.page.comparing._search.is_running)
-    window.page.comparing.go_to_divergence()
-    window.page.comparing.meet_at((20, 20))
-    assert not window.page.comparing._search.is_running, "the latest wish holds"
+    qtbot.waitUntil(lambda: not window.page.comparing.meeting.is_searching)
+    window.page.comparing.meeting.go_to_divergence()
+    window.page.comparing.meeting.meet_at((20, 20))
+    assert not window.page.comparing.meeting.is_searching, "the latest wish holds"
     assert window.session.moment.pixel == (20, 20)
     titles = window.page.compare_view.titles
     assert titles[0].text().startswith("A: without the mistake")
@@ -155,7 +155,7 @@ def test_a_goal_ends_with_a_b_that_cannot_be_drawn(window: MainWindow) -> None:
     comparing, summary = window.page.comparing, window.page.compare_view.summary
     assert summary.text().startswith("B cannot be drawn")
     window.page.show_view("pixels")
-    comparing.meet_at((20, 20))
+    comparing.meeting.meet_at((20, 20))
     window.page.show_view("compare")
     assert summary.text().startswith("B cannot be drawn")
     cursor = window.session.cursor
@@ -178,17 +178,17 @@ def test_a_b_of_too_many_steps_is_refused(window: MainWindow, qtbot: QtBot) -> N
 def test_leaving_ends_the_search_and_the_run_of_b(window: MainWindow) -> None:
     comparing = compared(window, "shared-edge", interpolation="affine").page.comparing
     before = window.session.cursor
-    comparing.go_to_divergence()
+    comparing.meeting.go_to_divergence()
     window.page.show_view("pixels")
-    assert not comparing._search.is_running
+    assert not comparing.meeting.is_searching
     window.session.set_setting("coverage", "float32")
     told: list[str] = []
     window.page.message_sent.connect(told.append)
     window.run_action("divergence")
     assert told == ["Show A | B first (Ctrl+D)."]
-    assert not comparing._search.is_running
+    assert not comparing.meeting.is_searching
     assert window.session.cursor == before
-    comparing.meet_at((20, 20))
+    comparing.meeting.meet_at((20, 20))
     window.page.show_view("compare")
     assert window.session.cursor != before, "what was asked for before it is shown holds"
 
