@@ -74,13 +74,26 @@ def read_dxf(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
 
 def left_out(codes: list[str], values: list[str]) -> list[str]:
     """Return sentences for what the drawing has and what is not drawn, or not where it is."""
-    begin = values.index("BLOCKS") if "BLOCKS" in values else values.index("ENTITIES")
-    end = values.index("ENDSEC", values.index("ENTITIES"))
-    inner = list(zip(codes[begin:end], values[begin:end], strict=True))
-    others = Counter(value for code, value in inner if code == "0" and value not in DRAWN | SILENT)
-    said = [f"{', '.join(f'{count} {kind}' for kind, count in others.items())} left out"] if others else []
-    if any(code in ("30", "31", "38") and re.search("[1-9]", value) for code, value in inner):
-        said.append("heights (z) are left out: the drawing is flat")
-    if any(code == "230" and not value.startswith("1") for code, value in inner):
-        said.append("entities of another plane (extrusion) are drawn as if they lay in that of x and y")
-    return said
+    entities = values.index("ENTITIES")
+    begin = values.index("BLOCKS") if "BLOCKS" in values else entities
+    others: Counter[str] = Counter()
+    has_heights = is_turned = has_placed = False
+    kind = ""
+    for place in range(begin, values.index("ENDSEC", entities)):
+        code, value = codes[place], values[place]
+        if code == "0":
+            kind = value
+            others[kind] += kind not in DRAWN | SILENT
+        has_heights |= code in ("30", "31", "38") and re.search("[1-9]", value) is not None
+        is_turned |= code == "230" and not value.startswith("1")
+        # trimesh passes over the base point of a block, the rows of an insertion, and insertions in blocks.
+        has_placed |= kind == "INSERT" and (place < entities or (code in ("70", "71") and value > "1"))
+        has_placed |= kind == "BLOCK" and code in ("10", "20") and re.search("[1-9]", value) is not None
+    names = ", ".join(f"{count} {kind}" for kind, count in others.items() if count)
+    said = {
+        f"entities that are not read: {names}": bool(names),
+        "heights (z) are left out: the drawing is flat": has_heights,
+        "entities of another plane (extrusion) are drawn as if they lay in that of x and y": is_turned,
+        "each block is drawn once, without its base point and the blocks inserted in it": has_placed,
+    }
+    return [sentence for sentence, is_said in said.items() if is_said]

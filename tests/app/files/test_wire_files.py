@@ -122,6 +122,7 @@ def test_colours_of_points_are_bytes_and_other_columns_are_left_out(tmp_path: Pa
         ("0\nELLIPSE\n10\n0\n20\n0\n", "1 ELLIPSE"),
         (SEGMENT + "31\n1.5\n", "heights"),
         (CIRCLE + "230\n-1.0\n", "plane"),
+        (INSERT + "70\n3\n", "block"),
     ],
 )
 def test_a_drawing_says_what_of_it_is_not_drawn(tmp_path: Path, entity: str, wanted: str) -> None:
