@@ -18,8 +18,7 @@ from app.pages.exercises.answers import (
     Live,
     Tried,
     are_marks_shown,
-    is_live,
-    live,
+    drawing,
     marks_of,
     outline_of,
     size_of,
@@ -177,18 +176,9 @@ class LessonAnswers(QObject):
 
     def _draw_live(self) -> None:
         """Draw what is shown of an answer while it is given."""
-        if self.asked is None or not is_live(self.asked.question.draft):
-            return
-        draft, given = self.asked.question.draft, self._form.given()
-
-        def work() -> Live:
-            try:
-                response = draft.answer.read(given)
-            except NotCheckedError:
-                response = None
-            return live(draft, response)
-
-        self._drawing.call(work)
+        work = None if self.asked is None else drawing(self.asked.question, self._form.given())
+        if work is not None:
+            self._drawing.start(work)
 
     @Slot(object)
     def _show_live(self, shown: Live) -> None:
