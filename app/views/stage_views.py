@@ -21,6 +21,7 @@ from core.resolved import resolve
 from core.scene import ClipScene
 from core.stages.declared import GEOMETRY_STAGES, PHASES, stage_of
 from core.trace import TraceSource
+from core.visibility.scan_line import HALVED, ScanLines
 from widgets.space.orbit import Orbit
 from widgets.space.scene_view import SceneView
 from widgets.space.view import OrbitArea
@@ -117,6 +118,8 @@ def _accesses(trace: Trace, fragment_count: int) -> str:
     drawn, sampling = nouns(source.scene.corner_count), resolve(source.settings).sampling
     if sampling.is_area or source.scene.corner_count == 0:
         return ""
+    if isinstance(source.ray_tests, ScanLines):
+        return "" if sampling.count > 1 else _compared_at_ends(source.ray_tests, fragment_count)
     one, many = (
         ("piece", "pieces") if len(geometry.primitives) > len(geometry.kept) else (drawn.one, drawn.many)
     )
@@ -126,6 +129,16 @@ def _accesses(trace: Trace, fragment_count: int) -> str:
     if geometry.asks_all:
         return f"Accessed: each {place} once, {many} {counted(places * count, 'time')}."
     return f"Accessed: each {one} once, {place}s {counted(fragment_count, 'time')}."
+
+
+def _compared_at_ends(lines: ScanLines, fragment_count: int) -> str:
+    """Return how many depths scan lines compute, against the fragments that a depth buffer tests."""
+    segments = lines.segments
+    halved = int((segments.verdict == HALVED).sum())
+    return (
+        f"Computed: {counted(segments.evaluations, 'depth')}, at the ends of segments; a z-buffer tests "
+        f"{counted(fragment_count, 'fragment')}. Halved: {counted(halved, 'segment')}."
+    )
 
 
 def _units(stage: str, corner_count: int, sampling: Sampling) -> Units:

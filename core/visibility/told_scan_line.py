@@ -10,7 +10,7 @@ from core.explain.number_text import pair_text
 from core.explain.records import Asked, choice
 from core.explain.step_tables import NONE, FilledColumn, cell_texts, filled_table, tabulates
 from core.explain.step_values import Said, StepValues, explains
-from core.explain.steps import VariableText, given, shows
+from core.explain.steps import VariableText, given, hides, shows
 from core.records.arrays import Integers
 from core.records.steps import Level, StepTable, TableCell, TableColumn
 from core.records.words import counted
@@ -218,12 +218,12 @@ def draws(step: StepValues) -> Said:
 shows(
     "depth",
     {
-        "row_first": given("first row", "First row with a pixel of the triangle."),
-        "row_last": given("last row", "Last row with a pixel of the triangle."),
+        "row_first": VariableText("first row", "First row with a pixel of the triangle."),
+        "row_last": VariableText("last row", "Last row with a pixel of the triangle."),
         "left": given("left", "First column of the span or segment."),
         "right": given("right", "Column after the last one."),
         "slope": VariableText("Δv/Δx", "Change of the nearness per column."),
-        "span_count": given("spans", "Spans of the row."),
+        "span_count": VariableText("spans", "Spans of the row.", "end_count"),
         "end_count": VariableText("ends", "Different ends of the row's spans."),
         "live_count": VariableText("live", "Triangles whose spans contain the segment."),
         "halvings": given("halvings", "How often the segment was halved to get this part."),
@@ -233,6 +233,21 @@ shows(
         "seen": VariableText("seen", "The triangle that the segment shows, or its left pixel."),
     },
 )
+shows(
+    f"depth.{_ENDS}",
+    {
+        "passes": VariableText(
+            "nearer", "Whether the triangle is nearer than those compared before it at this centre."
+        )
+    },
+)
+shows(
+    f"depth.{_VERDICTS}",
+    {"passes": VariableText("decided", "Whether the segment is drawn, and not halved.")},
+)
+_OF_SEGMENTS = ("left", "right", "halvings")
+hides("depth.scan-enter|scan-leave|scan-sort|out-of-range|discarded", _OF_SEGMENTS)
+hides("depth.scan-span|scan-pixel", ("halvings",))
 
 
 _ACTIVE = (

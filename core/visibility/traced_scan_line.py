@@ -352,7 +352,7 @@ def _marks(kind: Integers, columns: dict[str, NDArray[Any]]) -> dict[str, Flags]
     is_lost = np.isin(kind, [KINDS.index("out-of-range"), KINDS.index("discarded")])
     return {
         "covered": kind == KINDS.index("scan-pixel"),
-        "depth-failed": is_lost | (is_compared & ~columns["passes"]),
+        "depth-failed": is_lost,
         "tie": is_compared & (columns["sign"] == 0),
         "nan": is_lost & np.isnan(columns["depth"]),
     }

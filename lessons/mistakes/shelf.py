@@ -9,6 +9,7 @@ from lessons.mistakes import (
     fragments,
     planes,
     scan_conversion,
+    scan_lines,
     shaders,
     smoothing,
     surfaces,
@@ -41,6 +42,7 @@ RULES: dict[str, WrongRule] = {
         surfaces,
         depths,
         planes,
+        scan_lines,
         smoothing,
         visible_work,
     )

@@ -15,7 +15,7 @@ from core.transform.matrices import projection, rotation, scaling, translation, 
 from core.transform.vertex_stage import world_normals
 from lessons.exercises.numbers import Draws, NoQuestionError
 from lessons.exercises.templates.on_picture import draw_box
-from lessons.mistakes import depths, transforms
+from lessons.mistakes import depths, scan_lines, transforms
 from lessons.mistakes.shelf import RULES, SHELF
 from lessons.mistakes.twin import Case, line_pixels
 from lessons.small_scenes import pixel_segments, triangle_scene
@@ -232,3 +232,21 @@ def test_figures_of_shared_edges_and_rows() -> None:
 
     rule = RULES["crossing-from-vertex"]
     assert (len(filled(rule.right)), len(filled(rule.right) ^ filled(rule.wrong))) == (20, 6)
+
+
+def test_a_row_of_spans_shows_what_is_nearest_at_each_column() -> None:
+    for seed in range(40):
+        draws = Draws(seed)
+        spans = [
+            scan_lines.HandSpan(left, left + draws.whole(1, 9), draws.whole(0, 20), draws.whole(-2, 2))
+            for left in (draws.whole(0, 6) for _ in range(3))
+        ]
+        seen = [0, 0, 0]
+        for column in range(20):
+            live = [k for k, span in enumerate(spans) if span.left <= column < span.right]
+            if live:
+                seen[min(live, key=lambda k: (spans[k].depth_at(column), k))] += 1
+        assert scan_lines.pixels_seen(spans) == tuple(seen)
+        segments, depths_of_ends = scan_lines.row_work(spans)
+        assert segments <= 5
+        assert depths_of_ends <= sum(span.right - span.left for span in spans)

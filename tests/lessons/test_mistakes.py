@@ -11,6 +11,7 @@ from lessons.mistakes import (
     fragments,
     planes,
     scan_conversion,
+    scan_lines,
     smoothing,
     surfaces,
     transforms,
@@ -44,6 +45,8 @@ def test_names_are_unique_and_unknown_ones_refused() -> None:
     runs = {clipping, coverage, depths, scan_conversion, fragments, lines, textures}
     formulas = {cutting, depths, planes, scan_conversion, smoothing}
     formulas |= {surfaces, textures, transforms, visible_work}
+    formulas = {cutting, depths, planes, scan_conversion, smoothing, surfaces, textures, transforms}
+    formulas = {cutting, depths, scan_conversion, scan_lines, smoothing, surfaces, textures, transforms}
     count = sum(len(module.TWINS) for module in runs) + sum(len(module.RULES) for module in formulas)
     assert len(MISTAKES) == count + len(SHADERS)
     with pytest.raises(ValueError, match="expected a mistake such as corner-for-center"):

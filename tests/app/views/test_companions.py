@@ -172,3 +172,13 @@ def test_a_table_stands_where_it_can_be_read_and_the_picture_is_larger(
         QApplication.processEvents()
         places.add((area.beside.x() > 0, area.beside.y() > 0))
     assert places == {(not is_below, is_below)}
+
+
+def test_scan_lines_have_their_active_list_beside_them(window: MainWindow) -> None:
+    session, area = window.session, window.page.main_area
+    session.open(
+        open_document(make_scene("intersecting"), "intersecting", settings=Settings(visibility="scan-line"))
+    )
+    session.set_stage("depth", 20)
+    assert area.beside.isVisible()
+    assert area.beside.currentWidget() is area.companions["raster"].widget

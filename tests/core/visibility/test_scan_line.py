@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render, trace
 from core.coverage.pixel_runs import Raster
+from core.explain.step_tables import step_table
 from core.pipeline import draw
 from core.visibility.scan_line import ALONE, HALVED, PAIR, SAME, ScanLines, Spans, draw_rows
 from lessons.scenes import make_scene
@@ -182,3 +183,35 @@ def test_a_hundred_thousand_triangles() -> None:
     points = generator.uniform(0, 1, (100_000, 1, 2)) * (320, 240) + generator.normal(0, 2, (100_000, 3, 2))
     z = generator.uniform(-1, 1, (100_000, 3))
     assert_alike(ClipScene(clip_of_window(points, (320, 240), 1.0, z), size=(320, 240)))
+
+
+def test_the_active_list_has_the_spans_of_its_row_and_what_is_known_at_both_ends() -> None:
+    found = trace(make_scene("intersecting"), replace(LINES, cull="none")).stage("depth")
+    halved = np.flatnonzero(found.steps.kind == found.steps.kinds.index("scan-halve"))
+    for row in halved[::9].tolist():
+        table = step_table(found, found.steps.position_after(row))
+        assert table is not None
+        of_row = (found.columns["row"] == found.columns["row"][row]) & (
+            found.steps.kind == found.steps.kinds.index("scan-span")
+        )
+        assert table.rows == tuple(map(str, found.triangle[of_row].tolist()))
+        for end, seen in ((3, "first"), (4, "last")):
+            near = [
+                -np.inf if line[end] is None else float(line[end].full.replace("−", "-"))
+                for line in table.cells
+            ]
+            assert table.rows[int(np.argmax(near))] == str(found.columns[seen][row])
+
+
+@pytest.mark.parametrize("clip", [np.empty((0, 3, 4)), clip_of_window([[(0, 0), (4, 4), (8, 8)]], (8, 5))])
+def test_nothing_to_draw_has_no_rows(clip) -> None:
+    found = trace(ClipScene(clip, size=(8, 5)), LINES).stage("depth")
+    assert found.steps.row_count == 0
+    assert step_table(found, 0) is None
+
+
+def test_opaque_or_blended_only_the_nearest_is_drawn() -> None:
+    clip, color = crowd(6, (13, 9)), np.random.default_rng(1).random((6, 3, 4))
+    scene, settings = ClipScene(clip, color, (13, 9)), replace(LINES, cull="none", blend="over")
+    covered = render(scene, settings).primitive >= 0
+    assert trace(scene, settings).stage("blend").steps.row_count == covered.sum()
