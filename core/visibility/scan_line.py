@@ -339,7 +339,9 @@ def draw_rows(
             else:
                 middle = (left + right) // 2  #: halve
                 parts += [(middle, right), (left, middle)]
-        active = [t for t in active if row < max(spans[t])]  #: leave
+        for t in list(active):
+            if row == max(spans[t]):  #: leave
+                active.remove(t)
     return drawn
 
 

@@ -24,9 +24,9 @@ _HIT = (
     Operation("bound", "bound", {"error": "bound"}),
 )
 _OTHER = ("nearest", "nearest_nearness", "nearest_error")
-_LIVE = Operation("live", "live", {"live_count": "live"}, ("left", "right"))
+_LIVE = Operation("live", "live", {"live_count": "live"})
 _ENDS = (
-    Operation("first", "first", {"first": "first"}, ("left", "right")),
+    Operation("first", "first", {"first": "first"}),
     Operation("last", "last", {"last": "last"}),
 )
 

@@ -76,6 +76,7 @@ def marks_of(stage: StageTrace, kind: str, rows: NDArray[np.int64]) -> Iterator[
 def rare_traces() -> Iterator[Trace]:
     """Yield traces with the listings and lines that the usual ones do without."""
     yield trace(SCENES["circle-of-bars"], Settings(visibility="bsp"), region=(0, 0, 1, 1))
+    yield trace(SCENES["intersecting"], Settings(visibility="scan-line"), region=(28, 28, 12, 3))
     for filters in ("nearest", "mipmap-nearest", "bilinear"):
         yield trace(SCENES["textured-clip"], Settings(texture_filter=filters))
     yield trace(SCENES["textured-clip"], Settings(texture_filter="trilinear", interpolation="flat"))
