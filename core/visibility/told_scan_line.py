@@ -74,7 +74,7 @@ def sorts(step: StepValues) -> Said:
     ends, count = step.whole("end_count"), step.whole("span_count")
     verb = "has" if count == 1 else "have"
     return (
-        f"{_row(step)}: {counted(count, 'span')} {verb} {ends} different ends. They are sorted from left to right: "
+        f"{_row(step)}: {counted(count, 'span')} {verb} {ends} different ends, sorted from left to right: "
         f"between two neighbours the same {step.nouns.many} are live."
     )
 
@@ -83,12 +83,12 @@ def sorts(step: StepValues) -> Said:
 def live(step: StepValues) -> Said:
     """How many surfaces are live in a segment."""
     count = step.whole("live_count")
-    half = " It is a half of a longer segment." if step.whole("halvings") else ""
+    half = ", a half of a longer one" if step.whole("halvings") else ""
     if count == 1:
         return f"{_segment(step)}: one {step.nouns.one} is live."
     pixel = step.whole("right") - step.whole("left") == 1
     where = "the segment's one centre" if pixel else "the segment's first and last centre"
-    return f"{_segment(step)}: {count} {step.nouns.many} are live. They are compared at {where}.{half}"
+    return f"{_segment(step)}: {count} {step.nouns.many} are live, to be compared at {where}{half}."
 
 
 @explains("depth.scan-alone.alone")
@@ -123,7 +123,7 @@ def compared(step: StepValues) -> Said:
     shown, shown_old = pair_text(new, old)
     found, than = ("nearer", "larger") if step.flag("passes") else ("farther", "smaller")
     text = (
-        f"{step.pixel_name}: {step.name} is {found} at {_end(step)}. Its {measure(step)} {shown} is {than} than "
+        f"{step.pixel_name}: {step.name} is {found} at {_end(step)}, as its {measure(step)} {shown} is {than} than "
         f"{shown_old} of {step.named_primitive(step.whole('nearest'))}, and by more than both errors together."
     )
     return text, formula_of(concludes("nearer", found, named(NEW, new).compared(">", named(NEAREST, old))))
@@ -182,8 +182,8 @@ def same(step: StepValues) -> Said:
     if step.whole("right") - step.whole("left") == 1:
         return f"{_segment(step)}: {seen} is seen."
     return (
-        f"{_segment(step)}: {seen} is nearest at both ends. Along a row every plane's nearness is linear, so nothing "
-        "comes before it in between: the whole segment shows it."
+        f"{_segment(step)}: {seen} is nearest at both ends, and as the nearness of every plane is linear along a "
+        "row, the whole segment shows it."
     )
 
 
@@ -200,7 +200,7 @@ def halves(step: StepValues) -> Said:
     left, right, middle = (step.named(name, upright(name)) for name in ("left", "right", "middle"))
     text = (
         f"{_segment(step)}: different {step.nouns.many} are nearest at its ends, so another one comes to the front "
-        f"in between. It is halved at column {step.whole('middle')}."
+        f"in between, and it is halved at column {step.whole('middle')}."
     )
     return text, formula_of(middle.equals(call("floor", (left + right) / 2)))
 
@@ -210,8 +210,8 @@ def draws(step: StepValues) -> Said:
     """A pixel of a segment."""
     columns = columns_text(step.whole("left"), step.whole("right"))
     return (
-        f"{step.pixel_name} shows {step.name}: its segment has {columns}. Its depth is stored for other views of the "
-        "picture; no later step reads it."
+        f"{step.pixel_name} shows {step.name}: its segment has {columns}; its depth is stored for other views of "
+        "the picture, and no later step reads it."
     )
 
 

