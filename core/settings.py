@@ -177,6 +177,8 @@ class Settings:
         "depth",
         "core.visibility.painters",
         "core.visibility.ray_casting",
+        "core.visibility.rays_by_pixel",
+        "core.visibility.rays_in_tree",
         "core.visibility.scan_line",
         "core.visibility.bsp",
         classical=("z-buffer", "painters", "ray-casting"),

@@ -276,14 +276,6 @@ CATALOGUE = (
         RunPlace("transform", 'kind == "camera-to-clip" and after_w < 0'),
     ),
     BuiltInScene(
-        "boxes-around",
-        "Boxes around the viewer",
-        "Most of these boxes lie outside the view: each is asked by six planes, and dropped with all its triangles.",
-        boxes_around,
-        RunPlace("cull", 'kind == "box-outside"'),
-        {"object_culling": "frustum", "hierarchy": "none"},
-    ),
-    BuiltInScene(
         "intersecting",
         "Intersecting triangles",
         "Two triangles pass through each other, which only a test of each pixel's depth gets right.",
@@ -341,6 +333,14 @@ CATALOGUE = (
         "Six faces of one colour each, twelve triangles: follow a vertex from the mesh to the window.",
         of_mesh(cube, 5.4),
         RunPlace("transform", 'kind == "viewport"'),
+    ),
+    BuiltInScene(
+        "boxes-around",
+        "Boxes around the viewer",
+        "Most of these boxes lie outside the view: each is asked by six planes, and dropped with all its triangles.",
+        boxes_around,
+        RunPlace("cull", 'kind == "box-outside"'),
+        {"object_culling": "frustum", "hierarchy": "none"},
     ),
     BuiltInScene(
         "teapot",

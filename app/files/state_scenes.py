@@ -192,14 +192,15 @@ def _program_record(program: ShaderProgram) -> ProgramRecord:
 
 
 def _source_of(own: Fingerprints, path: str, folder: Path) -> tuple[SourceRecord | None, Fingerprints]:
-    """Return the first source that has an array of these meshes, and what it has."""
+    """Return the source that has most of the arrays of these meshes, and what it has: the file, or else a scene."""
     if path:
         found, source = remembered_fingerprints(path), _file_source(Path(path).resolve(), folder)
-        if _shares(own, found) and is_text(source.file or ""):
+        if _shared_count(own, found) and is_text(source.file or ""):
             return source, found
-    for name, found in built_in_fingerprints().items():
-        if _shares(own, found):
-            return SourceRecord(built_in=name), found
+    scenes = built_in_fingerprints()
+    name = max(scenes, key=lambda name: _shared_count(own, scenes[name]))
+    if _shared_count(own, scenes[name]):
+        return SourceRecord(built_in=name), scenes[name]
     return None, ()
 
 
@@ -212,8 +213,8 @@ def _file_source(path: Path, folder: Path) -> SourceRecord:
     )
 
 
-def _shares(own: Fingerprints, theirs: Fingerprints) -> bool:
-    return any(set(a.items()) & set(b.items()) for a, b in zip(own, theirs, strict=False))
+def _shared_count(own: Fingerprints, theirs: Fingerprints) -> int:
+    return sum(len(set(a.items()) & set(b.items())) for a, b in zip(own, theirs, strict=False))
 
 
 def _relative(path: Path, folder: Path) -> str:

@@ -153,10 +153,11 @@ class ObjectCulling:
         return np.asarray(self.dropped_by >= 0)
 
     @property
-    def skipped_count(self) -> int:
-        """How many tests by a plane the tree has saved, against all nodes without inner ones asked one by one."""
-        asked = np.where(self.sides.side == OUTSIDE, np.arange(len(PLANES)), len(PLANES) - 1).min(axis=1) + 1
-        return int(asked[self.tree.is_leaf].sum()) - len(self.plane)
+    def one_by_one_count(self) -> int:
+        """How many tests by a plane the leaves alone would take, each asked until a plane drops it."""
+        leaf = self.sides.side[self.tree.is_leaf]
+        is_out = leaf == OUTSIDE
+        return int(np.where(is_out.any(axis=1), is_out.argmax(axis=1) + 1, leaf.shape[1]).sum())
 
 
 def cull_objects(

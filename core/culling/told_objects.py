@@ -159,14 +159,23 @@ def planes_table(trace: StageTrace, rows: Integers, position: int) -> StepTable:
     tests = rows[[trace.kind_of(row) != "box-verdict" for row in rows.tolist()]]
     node = int(trace.columns["node"][rows[0]])
     labels = [str(trace.columns["plane"][row]) for row in tests.tolist()]
+    title, objects = f"Node {node}, plane by plane", trace.extra["culled"].objects
+    leaves = counted(int(objects.tree.is_leaf.sum()), "leaf", "leaves")
+    note = (
+        f"All boxes together were asked {counted(len(objects.plane), 'time')} by a plane; {leaves} one by one: "
+        f"{objects.one_by_one_count:,}."
+    )
+    is_last = int(trace.columns["visit"][rows[0]]) == len(objects.visited) - 1
+    closing = int(rows[-1])
     return filled_table(
         trace,
         tests,
         position,
-        f"Node {node}, plane by plane",
+        title,
         "Plane",
         labels,
         _COLUMNS,
-        closing=int(rows[-1]),
+        closing=closing,
+        note=note if is_last else "",
         grows=True,
     )

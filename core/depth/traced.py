@@ -20,6 +20,7 @@ from core.trace.stage_trace import BufferTrack, StageTrace
 from core.visibility.scan_line import ScanLines
 from core.visibility.traced import trace_rays
 from core.visibility.traced_by_pixel import with_misses
+from core.visibility.traced_in_tree import with_boxes
 from core.visibility.traced_scan_line import trace_scan_lines
 
 # Keys of the depth method ``fixed-38`` in the trace: depth and triangle in one number, the least of which
@@ -185,6 +186,8 @@ def trace_depth(source: TraceSource) -> StageTrace:
     found = _trace_tests(source) if source.ray_tests is None else trace_rays(source, source.ray_tests)
     if source.geometry.asks_all:
         found = with_misses(source, found)
+    if source.ray_tests is not None and source.ray_tests.walk is not None:
+        found = with_boxes(source, found, source.ray_tests)
     order = source.geometry.row_order
     return found if order is None else in_order(found, order)
 

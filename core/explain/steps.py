@@ -168,7 +168,12 @@ SUBJECTS = (
         "shaders.told",
     ),
     *("depth.told", "depth.told_early", "visibility.told", "visibility.told_by_pixel"),
-    *("visibility.told_scan_line", "visibility.told_order", "visibility.told_tree"),
+    *(
+        "visibility.told_scan_line",
+        "visibility.told_order",
+        "visibility.told_tree",
+        "visibility.told_in_tree",
+    ),
     *("framebuffer.told", "antialiasing.told", "antialiasing.told_fxaa"),
 )
 """What the topics say of their steps; the variables of a stage stand in their order."""

@@ -31,6 +31,7 @@ from core.stages.fragments import (
 )
 from core.stages.hidden_surfaces import cleared_buffers, run_visibility_tests
 from core.trace.source import TraceSource
+from core.visibility.ray_casting import RayTests
 from core.visibility.scan_line import ScanLines
 
 # What the history of a pixel is made of: keys and numbers, no sentences.
@@ -156,7 +157,9 @@ class PixelFragments:
     signs: Integers | None
     """(F,) int64, where rays are cast: 1 nearer than the nearest so far, -1 farther, 0 equally near or out of range."""
     seen: int | None = None
-    """The triangle that all of them were compared with at once, where a row is decided span by span."""
+    """The triangle that is seen, where all are told by it: row decided span by span, or a ray in a tree of boxes."""
+    hidden_in: Integers | None = None
+    """(F,) int64, the box of a tree that the ray has not opened around it, -1: it was compared; ``None``: no tree."""
 
 
 def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> PixelFragments:
@@ -177,7 +180,9 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
     here = stack_fragments(np.zeros(len(index), np.int64))
     writes = writes_depth(fragments)
     kept, cleared = fragments.select(keeps), cleared_buffers(1, depth_format)
-    tests, rays = run_visibility_tests(geometry, kept, stored[index], here, cleared, raster, depth_format)
+    tests, rays = run_visibility_tests(
+        geometry, kept, stored[index], here, cleared, raster, depth_format, keeps_visits=True
+    )
     before, passes = np.full(count, np.nan, depth_format.stored_type), np.zeros(count, bool)
     before[index], passes[index] = tests.before, tests.passes
     signs = None
@@ -185,6 +190,11 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
         signs = np.zeros(count, np.int64)
         signs[index] = rays.sign
     seen = int(rays.seen[0]) if isinstance(rays, ScanLines) and len(index) else None
+    hidden_in = None
+    if isinstance(rays, RayTests) and rays.walk is not None and signs is not None:
+        walk, hidden_in = rays.walk, np.full(count, -1)
+        signs[index] = np.where(walk.wins, 1, np.where(walk.ties, 0, -1))
+        seen, hidden_in[index] = int(walk.winner.max(initial=-1)), walk.hidden_in
     return PixelFragments(
         primitive,
         geometry.primitives.triangle[primitive],
@@ -202,6 +212,7 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
         depth_format.scale,
         signs,
         seen,
+        hidden_in,
     )
 
 
@@ -259,6 +270,9 @@ def _depth_link(fragments: PixelFragments, k: int, holder: int, tested: bool) ->
         "scale": fragments.scale,
         "inverse_w": float(fragments.inverse_w[k]),
     }
+    if fragments.hidden_in is not None and fragments.seen is not None:
+        own = int(fragments.triangle[k]) == fragments.seen
+        values |= {"against": -1 if own else fragments.seen, "node": int(fragments.hidden_in[k])}
     if fragments.in_range[k] and not fragments.keeps[k]:
         key = "discarded"
     elif not fragments.keeps[k]:
@@ -267,7 +281,9 @@ def _depth_link(fragments: PixelFragments, k: int, holder: int, tested: bool) ->
         key = "not-tested"
     elif fragments.signs is not None:
         key = {1: "ray-nearer", 0: "ray-tied", -1: "ray-farther"}[int(fragments.signs[k])]
-        if fragments.seen is not None:
+        if fragments.hidden_in is not None:
+            key = "ray-hidden" if values["node"] >= 0 else key
+        elif fragments.seen is not None:
             key = {1: "scan-nearest", 0: "scan-tied", -1: "scan-farther"}[int(fragments.signs[k])]
             values["against"] = fragments.seen
     elif fragments.passes[k]:

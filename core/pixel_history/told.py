@@ -266,6 +266,9 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     ),
     ("depth", "scan-tied"): lambda v: f"exactly as near as {_holder(v)}, and a tie keeps what is drawn first",
     ("depth", "painted-over"): _painted_over,
+    ("depth", "ray-hidden"): lambda v: (
+        f"hidden by the tree: the ray does not open node {v['node']}, missed, or behind another hit"
+    ),
     ("depth", "not-tested"): lambda v: f"depth {exact_text(v['stored'])} stored without a test",
     ("depth", "before-near"): lambda v: (
         f"in front of the near plane: depth {exact_text(v['depth'])} is below 0"

@@ -217,6 +217,8 @@ class DrawingOrder:
     """Whether the ray of a pixel asks all primitives, so that those that it misses have rows, too."""
     pieces: Pieces | None = None
     """What is drawn in this order; ``None``: the primitives themselves."""
+    walks_tree: bool = False
+    """Whether rays find the primitives that they ask in a tree of boxes."""
 
     @property
     def is_as_given(self) -> bool:

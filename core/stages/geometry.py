@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from core.stages.object_tree import ObjectTree
     from core.stages.primitives import OutlineClip, PolygonClip
     from core.visibility.ray_casting import RayPlanes
+    from core.visibility.rays_in_tree import TreeRays
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,6 +79,8 @@ class Geometry:
     """How the stage depth lists its rows; ``None``: triangle by triangle."""
     asks_all: bool = False
     """Whether the ray of a pixel asks all primitives."""
+    walks_tree: bool = False
+    """Whether the ray of a pixel finds them in the boxes of ``object_tree``."""
     object_tree: "ObjectTree | None" = None
     """The boxes that objects are culled by, or rays find triangles with; ``None``: no method asks for them."""
     shift: tuple[float, float] = (0.0, 0.0)
@@ -189,6 +192,22 @@ class Geometry:
             return set_up_ray_planes(clip, vertices.size, vertices.view_range is not None, self.shift)
 
     @cached_property
+    def tree_rays(self) -> "TreeRays | None":
+        """The rays of the picture among the boxes of ``object_tree``; ``None``: no ray asks these.
+
+        Of wireframes and polygons every ray asks all: what covers a pixel there may lie beside the boxes.
+        """
+        if not self.walks_tree or self.object_tree is None or not self.is_cut_to_pixels:
+            return None
+        from core.stages.object_tree import rays_in_tree
+
+        with self.count:
+            reach = farthest_from_grid(
+                self.window, self.primitives.vertex_clip, self.vertices.size, self.shift
+            )
+            return rays_in_tree(self.object_tree, self.vertices, self.ray_planes, reach)
+
+    @cached_property
     def outlines(self) -> "Outlines | None":
         """The edges that a wireframe draws; ``None``: triangles are filled."""
         if not resolve(self.settings).is_outlined:
@@ -286,6 +305,18 @@ class Geometry:
         clipping = DEPTH_CLIPPING if self.clipping_inserted else resolve(self.settings).clipping
         cut = clipping.clip(whole, distances, 3).primitives
         return cut.varyings, cut.triangle
+
+
+def farthest_from_grid(
+    window: WindowVertices, clip: Floats, size: tuple[int, int], shift: tuple[float, float]
+) -> float:
+    """Return how many pixels the vertices of clip positions (4, M) lie from where coverage sees them, at most."""
+    x, y, _, w = clip
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        across = np.abs((x / w + 1) * (size[0] / 2) + shift[0] - window.x)
+        up = np.abs((y / w + 1) * (size[1] / 2) + shift[1] - window.y)
+    farthest = np.fmax(across, up)[window.is_projected]
+    return float(farthest.max(initial=0.0))
 
 
 def line_reach(settings: Settings) -> float:

@@ -4,7 +4,7 @@ It joins the depth buffer, ray casting and scan lines; picture, trace and histor
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -30,6 +30,7 @@ from core.stages.fragments import fragments_at, owner_of
 from core.stages.geometry import Geometry
 from core.visibility.ray_casting import RayTests, run_ray_tests
 from core.visibility.scan_line import ScanLines, find_scan_lines
+from core.visibility.tree_walk import walk_rays
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +57,7 @@ def run_visibility_tests(
     start: StartBuffers,
     raster: Raster,
     depth_format: DepthFormat,
+    keeps_visits: bool = False,
 ) -> tuple[DepthTests, RayTests | ScanLines | None]:
     """Decide of F fragments in drawing order which are kept, each against what is there before it.
 
@@ -63,6 +65,8 @@ def run_visibility_tests(
     ----------
     stored : (F,) of the format's ``stored_type``
         What the depth buffer gets of each.
+    keeps_visits : bool
+        Whether the boxes that rays ask are listed, see `core.visibility.tree_walk`.
 
     Returns
     -------
@@ -78,6 +82,8 @@ def run_visibility_tests(
     planes = geometry.ray_planes
     m, n = planes.rays(fragments.column, fragments.row, raster.center)
     triangle = geometry.primitives.triangle.take(fragments.primitive)
+    if geometry.tree_rays is not None:
+        return walk_to_nearest(geometry, triangle, (m, n), stored, stacks, start, keeps_visits)
     by_lines = resolve(geometry.settings).method("visibility").traits == "scan-lines"
     if by_lines and geometry.outlines is None:
         # Lines have no spans: each of their pixels is compared for itself.
@@ -101,6 +107,40 @@ def run_visibility_tests(
 def tests_early(scene: AnyScene, geometry: Geometry) -> bool:
     """Return whether a fragment is shaded only if it passes the depth test: never where a shader might discard it."""
     return resolve(geometry.settings).tests_early and scene.program is None
+
+
+def pixels_of(stacks: PixelStacks) -> Integers:
+    """Return the pixel (F,) int64 of every fragment."""
+    order, count = np.argsort(stacks.bottom), len(stacks.fragment)
+    found = np.empty(count, np.int64)
+    heights = np.diff(stacks.bottom[order], append=count)
+    found[stacks.fragment] = np.repeat(stacks.pixel[order], heights)
+    return found
+
+
+def walk_to_nearest(
+    geometry: Geometry,
+    triangle: Integers,
+    rays: tuple[Floats, Floats],
+    stored: Stored,
+    stacks: PixelStacks,
+    start: StartBuffers,
+    keeps_visits: bool,
+) -> tuple[DepthTests, RayTests]:
+    """Send rays m, n (F,) through the tree, and keep of F fragments the nearest of each pixel alone.
+
+    The other arguments are those of `run_visibility_tests`; ``triangle`` (F,) are numbers of the scene.
+    """
+    assert geometry.tree_rays is not None
+    pixel = pixels_of(stacks)
+    pixels, first = np.unique(pixel, return_index=True)
+    of_ray = pixels, rays[0].take(first), rays[1].take(first)
+    initial = start.triangle.take(pixels)
+    tests, walk = walk_rays(
+        geometry.tree_rays, geometry.ray_planes, pixel, triangle, of_ray, initial, keeps_visits
+    )
+    passed = DepthTests(replay_depths(stored, stacks, start.depth, walk.wins), walk.wins)
+    return passed, replace(tests, walk=walk)
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from functools import lru_cache
 
+import numpy as np
+
 from core.culling.object_culling import ObjectCulling, cull_objects, view_planes
 from core.records.arrays import Floats, Integers
 from core.records.box_tree import BoxTree, Objects, checked_objects
@@ -10,6 +12,8 @@ from core.resolved import resolve
 from core.scene import AnyScene, Scene
 from core.settings import Settings, no_effect
 from core.transform.vertex_stage import VertexStage, World, place_meshes
+from core.visibility.ray_casting import RayPlanes
+from core.visibility.rays_in_tree import TreeRays, set_up_tree_rays
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,3 +70,30 @@ def culled_objects(
     planes = view_planes(vertices.projection, vertices.view)
     rule = resolve(settings).method("object_culling").function
     return cull_objects(grown.tree, rule, planes, len(grown.objects), plane_count)
+
+
+BEYOND = 1 / 128
+"""Pixels that coverage may reach beyond snapped corners: where a snapped triangle turns over, sqrt(2)/256."""
+
+
+def rays_in_tree(grown: ObjectTree, vertices: VertexStage, planes: RayPlanes, reach: float) -> TreeRays:
+    """Return the rays of a picture among the boxes of a tree.
+
+    Parameters
+    ----------
+    reach : float
+        How many pixels snapping moves a corner at most.
+    """
+    if grown.is_world:
+        assert vertices.projection is not None
+        assert vertices.view is not None
+        to_clip = vertices.projection @ vertices.view
+        sizes = np.abs(vertices.projection) @ np.abs(vertices.view)
+    else:
+        to_clip = np.zeros((4, 4))
+        to_clip[[0, 1, 3], [0, 1, 2]] = 1.0
+        sizes = to_clip
+    is_parallel = bool(grown.is_world and not to_clip[3, :3].any())
+    return set_up_tree_rays(
+        grown.tree, to_clip, planes, float(to_clip[3, 3]) if is_parallel else 0.0, reach + BEYOND, sizes
+    )

@@ -210,6 +210,7 @@ def _process(
         casts_rays=drawing.casts_rays,
         row_order=drawing.row_order,
         asks_all=drawing.asks_all,
+        walks_tree=drawing.walks_tree,
         settings=settings,
         count=counts["edges"],
         object_tree=grown,

@@ -16,6 +16,7 @@ from core.methods import table
 from core.settings import families
 from core.study.family import StudyFamily
 from core.study.whole_picture import PIPELINE, standing_in
+from core.trees.measured import HIERARCHY
 
 OWN = (
     LINE,
@@ -35,6 +36,7 @@ OWN = (
     VISIBILITY,
     CULL,
     DEPTH_TEST_TIME,
+    HIERARCHY,
 )
 """Studies with work and references of their own; those whose family is not in the table yet are not shown."""
 

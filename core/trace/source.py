@@ -216,6 +216,7 @@ class TraceSource:
             start,
             self.raster,
             self.depth_format,
+            keeps_visits=True,
         )
 
     @property

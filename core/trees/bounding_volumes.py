@@ -106,19 +106,6 @@ def build(objects: Objects, leaf_size: int, split: Splitter) -> BoxTree:
     return join_nodes(lower, upper, depth, own)
 
 
-def median_node_count(object_count: int, leaf_size: int) -> int:
-    """Return how many nodes the median tree of so many objects has; half as many objects: at most two sizes a level."""
-    sizes, nodes = {object_count: 1} if object_count else {}, 0
-    while sizes:
-        nodes += sum(sizes.values())
-        parts = dict[int, int]()
-        for size, count in sizes.items():
-            for part in (size // 2, size - size // 2) if size > leaf_size else ():
-                parts[part] = parts.get(part, 0) + count
-        sizes = parts
-    return nodes
-
-
 def box_of(
     lower: Sequence[Sequence[float]], upper: Sequence[Sequence[float]], items: list[int]
 ) -> tuple[list[float], list[float]]:

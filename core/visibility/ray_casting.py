@@ -32,13 +32,16 @@ closest surface.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from math import inf, isfinite, lcm
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from core.methods import method
 from core.records.arrays import Flags, Floats, Integers
 from core.records.primitives import DrawingOrder
+
+if TYPE_CHECKING:
+    from core.visibility.rays_in_tree import TreeWalk
 
 # Where the ray through a pixel centre meets the planes of triangles: in float64 with its error, and
 # exactly.
@@ -237,6 +240,8 @@ class RayTests:
     """(F,) int64, ``FIRST``, ``BY_FLOATS`` or ``EXACTLY``."""
     sign: Integers
     """(F,) int64: 1 nearer, -1 farther, 0 equally near, which is not nearer."""
+    walk: "TreeWalk | None" = None
+    """What rays have asked in a tree of boxes; ``None``: they ask all triangles."""
 
 
 def run_ray_tests(

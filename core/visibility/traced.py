@@ -16,6 +16,7 @@ from core.visibility.ray_casting import (
     hit_is_nearer,
     hit_value,
 )
+from core.visibility.rays_in_tree import TreeWalk
 
 _HIT = (
     Operation("hit", "value", {"nearness": "value"}, ("depth",)),
@@ -50,17 +51,20 @@ def trace_rays(source: TraceSource, rays: RayTests) -> StageTrace:
     names = {FIRST: "ray-first", BY_FLOATS: "ray", EXACTLY: "ray-exact"}
     kind[keeps] = np.array([kinds.index(names[how]) for how in sorted(names)])[rays.how]
     writes = np.ones(len(fragments), bool) if source.writes_depth is None else source.writes_depth
-    is_kept = tests.passes & writes
-    after = np.where(is_kept, stored, tests.before)
+    passes, before = tests.passes, tests.before
+    if rays.walk is not None:
+        passes, before = _against_the_nearest_so_far(source, rays, rays.walk)
+    is_kept = passes & writes
+    after = np.where(is_kept, stored, before)
     columns: dict[str, np.ndarray] = {
         "column": fragments.column,
         "row": fragments.row,
         "depth": depth,
         "inverse_w": source.inverse_w,
         "stored": stored,
-        "before": tests.before,
+        "before": before,
         "after": after,
-        "passes": tests.passes,
+        "passes": passes,
         "writes": writes,
         "primitive": fragments.primitive,
     }
@@ -82,8 +86,8 @@ def trace_rays(source: TraceSource, rays: RayTests) -> StageTrace:
         listings=_listings(),
         constants={"by_w": source.geometry.ray_planes.by_w, "quantity": source.depth_format.quantity.name},
         marks={
-            "covered": tests.passes,
-            "depth-failed": ~tests.passes,
+            "covered": passes,
+            "depth-failed": ~passes,
             "tie": keeps & (columns["sign"] == 0),
             "nan": np.isnan(depth),
         },
@@ -91,9 +95,21 @@ def trace_rays(source: TraceSource, rays: RayTests) -> StageTrace:
             BufferTrack("primitive", start.primitive, kept, place[kept], triangle[kept], "ids", True),
             BufferTrack("nearness", unknown, kept, place[kept], columns["nearness"][kept]),
             BufferTrack("depth", start.depth, kept, place[kept], stored[kept], starts_known=True),
-            BufferTrack("passes", unknown, every, place, tests.passes.astype(float), "flags"),
+            BufferTrack("passes", unknown, every, place, passes.astype(float), "flags"),
         ),
     )
+
+
+def _against_the_nearest_so_far(
+    source: TraceSource, rays: RayTests, walk: TreeWalk
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return which fragments (F,) were nearer when they were asked, and the depth (F,) of the nearest before each."""
+    _, keeps, stored = source.depths
+    passes, before = np.zeros(len(keeps), bool), np.full(len(keeps), np.nan, stored.dtype)
+    passes[keeps] = rays.passes
+    own, there = stored[keeps], source.start.depth.ravel()[source.place[keeps]]
+    before[keeps] = np.where(walk.previous >= 0, own.take(walk.previous) if len(own) else own, there)
+    return passes, before
 
 
 def _hits(source: TraceSource, rays: RayTests, keeps: np.ndarray) -> dict[str, np.ndarray]:

@@ -3,6 +3,7 @@
 from difflib import get_close_matches
 
 from lessons.mistakes import (
+    boxes,
     clipping,
     coverage,
     depths,
@@ -43,6 +44,7 @@ RULES: dict[str, WrongRule] = {
         depths,
         planes,
         scan_lines,
+        boxes,
         smoothing,
         visible_work,
     )

@@ -13,6 +13,7 @@ from core import STAGES, Settings, render
 from core.methods import table
 from core.scene import Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight, Scene, Texture
 from core.settings import families
+from core.stages.needs import refusal
 
 EVERYTHING = Look(
     view="scene",
@@ -154,6 +155,8 @@ def states(draw):
     is_orthographic = isinstance(scene, Scene) and scene.camera.projection == "orthographic"
     if is_orthographic and "perspective" in table.get("depth", settings.depth).needs:
         settings = replace(settings, depth="z-float32")
+    if refusal("object_culling", settings.object_culling, scene):
+        settings = replace(settings, object_culling="none")
     raster = TeachingRaster(draw(st.integers(1, 16)), draw(st.integers(1, 12)))
     document = Document(
         scene,

@@ -18,7 +18,11 @@ from core.pipeline import render
 from core.records.listing import listing
 
 EARLIER = Path(__file__).parent / "earlier"
-NEWER = {"polygon_clipping": "none", "polygon_fill": "even-odd"}
+NEWER = {
+    **{"polygon_clipping": "none", "polygon_fill": "even-odd"},
+    **{"object_culling": "none", "hierarchy": "bvh", "leaf_size": 8, "octree_depth": 5},
+    "depth_test_time": "late",
+}
 """What settings of families have that are younger than the files: their defaults."""
 
 

@@ -1,6 +1,7 @@
 """Steps to be explained: every method on a built-in scene, and on rare triangles together."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cache
 from heapq import nsmallest
 from itertools import cycle
@@ -15,6 +16,7 @@ from core.explain.records import Formula, Variable
 from core.methods import table
 from core.scene import AnyScene
 from core.settings import families
+from core.stages.needs import refusal
 from core.trace import Explanation, StageTrace
 from lessons.scenes import make_scene, scene_names
 from tests.core.shaders.scenes import square_scene
@@ -106,6 +108,11 @@ def every_choice() -> list[Settings]:
     return found
 
 
+def is_refused(settings: Settings, scene: AnyScene) -> bool:
+    """Return whether one of the methods cannot draw the scene."""
+    return any(refusal(family, getattr(settings, family), scene) for family in families())
+
+
 Place = tuple[str, StageTrace, int, int]
 """The key of an operation, its stage, its row and its position."""
 
@@ -153,13 +160,18 @@ def traces() -> dict[str, dict[str, Trace]]:
     choices = {name_of(Settings().differences(settings)): settings for settings in every_choice()}
     cases = [(f"{name} first", Settings()) for name in scenes] + list(choices.items())
     windows = {}
-    for (choice, settings), name in zip(cases, cycle(scenes)):
+    in_turn = cycle(scenes)
+    for choice, settings in cases:
+        name = next(each for each in in_turn if not is_refused(settings, scenes[each][0]))
         scene, triangle, window = scenes[name]
         windows[f"{name} {choice}"] = trace(scene, settings, triangle, window, before="cleared")
     boxes = make_scene("boxes-around")
     for name in table.names("hierarchy"):
         asked = Settings(object_culling="frustum", hierarchy=name, leaf_size=16, octree_depth=2)
         windows[f"boxes {name}"] = trace(boxes, asked, 50, (30, 20, *WINDOW), before="cleared")
+    few = replace(make_scene("cube"), size=(32, 24))
+    in_tree = Settings(visibility="ray-casting-tree", hierarchy="bvh", leaf_size=2)
+    windows["rays in a tree"] = trace(few, in_tree, None, (0, 0, 32, 24), before="cleared")
     # Polygons are clipped in scenes of their own.
     comb = make_scene("connecting-edges")
     for name in table.names("polygon_clipping")[1:]:

@@ -47,7 +47,7 @@ ANSWERS = {
     "bin": lambda values: {"outside": 0, "inside": 1}.get(values["verdict"], 2),
     "raster": lambda values: 1 - values["covered"],
     "interpolate": lambda values: values["weights"][0] if "s" not in values else values["s"],
-    "depth": lambda values: 1 - values["passes"],
+    "depth": lambda values: 1 - values["is_opened" if values.get("is_box") else "passes"],
     "blend": lambda values: values["after"][0],
     "resolve": lambda values: values["bytes"][0],
 }
@@ -113,7 +113,7 @@ def test_every_kind_of_row_that_decides_can_be_asked_about() -> None:
 
 
 UNMARKED = {
-    "depth.discarded.discard",
+    *("depth.discarded.discard", "depth.tree-hidden.hide"),
     *("edges.homogeneous.keep", "edges.orientation.area", "edges.snapped.window"),
     *("clip.untouched.keep", "bin.whole-image.keep"),
     *("shade.lit.albedo", "shade.lit.interpolated", "shade.textured-lit.interpolated"),

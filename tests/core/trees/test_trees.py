@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from core.methods import table
 from core.records.box_tree import BoxTree, Objects, checked_objects
-from core.trees.bounding_volumes import area_tree, median_node_count, median_tree, mesh_list
+from core.trees.bounding_volumes import area_tree, median_tree, mesh_list
 from core.trees.octree import MOST_REFERENCES, octree_listing
 
 TREES = {"none": mesh_list, "bvh": median_tree, "bvh-area": area_tree, "octree": octree_listing}
@@ -86,12 +86,6 @@ def test_building_ends_where_no_cut_parts_the_objects(name: str) -> None:
     assert tree.items_of(0).tolist()[:2] == [0, 1]
     assert len(grown(name, checked_objects(spot[:0], spot[:0]))) == 0
     assert len(grown(name, checked_objects(spot[:1], spot[:1]), 1)) == 1
-
-
-@given(st.integers(0, 300), st.integers(1, 9))
-def test_the_size_of_a_median_tree_is_known_before(count: int, leaf_size: int) -> None:
-    spot = np.zeros((count, 3))
-    assert median_node_count(count, leaf_size) == len(grown("bvh", checked_objects(spot, spot), leaf_size))
 
 
 def test_wrong_boxes_and_too_many_references_are_named() -> None:

@@ -1,0 +1,152 @@
+"""Mistakes with boxes of objects: asked by planes and by rays, and cut into trees."""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import product
+from typing import Any
+
+from lessons.mistakes.transforms import Vector
+from lessons.mistakes.twin import WrongRule
+
+Box = tuple[Sequence[Any], Sequence[Any]]
+"""Least and greatest coordinates."""
+
+
+def farthest_along(normal: Sequence[Any], offset: Any, box: Box) -> Vector:
+    """Return the distance of the corner of a box farthest along a plane's normal."""
+    return (sum(n * (high if n > 0 else low) for n, low, high in zip(normal, *box, strict=True)) + offset,)
+
+
+def nearest_along(normal: Sequence[Any], offset: Any, box: Box) -> Vector:
+    """Return the distance of the corner farthest against it."""
+    return (sum(n * (low if n > 0 else high) for n, low, high in zip(normal, *box, strict=True)) + offset,)
+
+
+def dropped(planes: Sequence[tuple[Sequence[Any], Any]], box: Box) -> Vector:
+    """Return 1 where a box lies outside of one of the planes as a whole, else 0."""
+    return (int(any(farthest_along(normal, offset, box)[0] < 0 for normal, offset in planes)),)
+
+
+def dropped_without_corner(planes: Sequence[tuple[Sequence[Any], Any]], box: Box) -> Vector:
+    """Return 1 where no corner of a box lies inside of all planes."""
+    corners = product(*zip(*box, strict=True))
+    inside = (
+        all(
+            sum(n * x for n, x in zip(normal, corner, strict=True)) + offset >= 0 for normal, offset in planes
+        )
+        for corner in corners
+    )
+    return (int(not any(inside)),)
+
+
+def slab_ends(origin: Sequence[int], direction: Sequence[int], box: Box) -> list[tuple[Fraction, Fraction]]:
+    """Return where a ray comes between the two planes of each axis, and where it leaves them."""
+    found = []
+    for start, step, low, high in zip(origin, direction, *box, strict=True):
+        one, other = Fraction(low - start, step), Fraction(high - start, step)
+        found.append((min(one, other), max(one, other)))
+    return found
+
+
+def way_through(origin: Sequence[int], direction: Sequence[int], box: Box) -> Vector:
+    """Return where a ray enters a box, and where it leaves it; it misses the box where it leaves first."""
+    ends = slab_ends(origin, direction, box)
+    return max(near for near, _ in ends), min(far for _, far in ends)
+
+
+def way_joined(origin: Sequence[int], direction: Sequence[int], box: Box) -> Vector:
+    """Return where a ray first comes between any two planes, and where it last leaves some."""
+    ends = slab_ends(origin, direction, box)
+    return min(near for near, _ in ends), max(far for _, far in ends)
+
+
+def nearest_hit(boxes: Sequence[tuple[int, int]]) -> Vector:
+    """Return which of boxes, each with the distance where it begins and that of its hit, has the nearest hit."""
+    return (min(range(len(boxes)), key=lambda k: boxes[k][1]),)
+
+
+def nearest_box(boxes: Sequence[tuple[int, int]]) -> Vector:
+    """Return which box begins nearest."""
+    return (min(range(len(boxes)), key=lambda k: boxes[k][0]),)
+
+
+def parts_by_number(centers: Sequence[int]) -> Vector:
+    """Return how many of sorted centres go into both parts of a tree that is cut in the middle."""
+    return len(centers) // 2, len(centers) - len(centers) // 2
+
+
+def parts_by_space(centers: Sequence[int]) -> Vector:
+    """Return how many lie in both halves of the space."""
+    middle = Fraction(min(centers) + max(centers), 2)
+    below = sum(center < middle for center in centers)
+    return below, len(centers) - below
+
+
+def entries(spans: Sequence[tuple[int, int]], middle: int) -> Vector:
+    """Return how many of the spans touch the lower half of a cell, and how many the upper one."""
+    return sum(low <= middle for low, _ in spans), sum(high >= middle for _, high in spans)
+
+
+def entries_by_centre(spans: Sequence[tuple[int, int]], middle: int) -> Vector:
+    """Return in how many halves their centres lie: each in one."""
+    below = sum(low + high < 2 * middle for low, high in spans)
+    return below, len(spans) - below
+
+
+RULES = (
+    WrongRule(
+        "nearest-corner-asked",
+        "The corner farthest against the plane's normal was asked. A box is outside as a whole only where even the"
+        " corner farthest along the normal is.",
+        farthest_along,
+        nearest_along,
+        ((1, 0), 0, ((-1, 0), (2, 1))),
+        ((1, 0), 0, ((2, 0), (2, 1))),
+    ),
+    WrongRule(
+        "no-corner-inside",
+        "The box was dropped as none of its corners is inside. A large box around the view has none inside, "
+        "either: it is outside only where all corners are outside of one and the same plane.",
+        dropped,
+        dropped_without_corner,
+        ((((1, 0), 1), ((-1, 0), 1)), ((-3, 0), (3, 1))),
+        ((((1, 0), 1), ((-1, 0), 1)), ((2, 0), (3, 1))),
+    ),
+    WrongRule(
+        "slabs-joined",
+        "The ways between the planes of both axes were joined. The ray is in the box only where it is between all "
+        "of them: from the largest entry to the smallest exit.",
+        way_through,
+        way_joined,
+        ((0, 0), (1, 1), ((2, 3), (6, 5))),
+        ((0, 0), (1, 1), ((2, 2), (5, 5))),
+    ),
+    WrongRule(
+        "nearest-box-wins",
+        "The box that begins nearest was taken. What it holds may lie farther than a hit in another box: the "
+        "nearest hit wins.",
+        nearest_hit,
+        nearest_box,
+        (((1, 9), (3, 4)),),
+        (((1, 2), (3, 4)),),
+    ),
+    WrongRule(
+        "space-halved",
+        "The space was halved. A bounding volume hierarchy cuts the sorted objects in the middle of their number, "
+        "wherever they lie.",
+        parts_by_number,
+        parts_by_space,
+        ((0, 1, 2, 3, 20),),
+        ((0, 1, 19, 20),),
+    ),
+    WrongRule(
+        "octant-of-centre",
+        "Each object was listed in the part that its centre lies in. An octree lists it in every part that it "
+        "touches, or rays would miss what reaches over the border.",
+        entries,
+        entries_by_centre,
+        (((0, 3), (4, 9), (6, 8)), 5),
+        (((0, 3), (6, 8)), 5),
+    ),
+)
+"""Wrong formulas of boxes."""
