@@ -138,9 +138,17 @@ shows(
     {
         "node": VariableText("node", "Number of the box, in pre-order."),
         **_OF_AXES,
-        "object_count": VariableText("n", "How many {many} the box and those in it list."),
+        "object_count": VariableText("listed", "How many {many} the box and those in it list."),
         "most_nearness": VariableText("most", "How near a hit in the box can be at most: larger is nearer."),
         "next_node": VariableText("next", "The box that the ray asks next."),
+    },
+)
+shows(
+    "depth.tree-behind",
+    {
+        "nearest": VariableText(
+            "nearest", "Number of the nearest triangle on the ray so far.", "nearest_nearness"
+        )
     },
 )
 
@@ -158,7 +166,7 @@ _COLUMNS = (
     ),
     FilledColumn("leave", "Where it is so no longer.", lambda step: step.number("leave_z"), "leave_z"),
     FilledColumn(
-        "n", "How many {many} the box and those in it list.", lambda step: step.whole("object_count")
+        "listed", "How many {many} the box and those in it list.", lambda step: step.whole("object_count")
     ),
     FilledColumn("verdict", "Opened; or jumped over, to which node.", _verdict),
 )

@@ -30,7 +30,7 @@ BOX_OPERATIONS: dict[str, tuple[Operation, ...]] = {
     "tree-behind": (
         *_SLABS,
         Operation("meet", "missed"),
-        Operation("behind", "behind", (), ("nearest", "nearest_nearness", "most_nearness", "object_count")),
+        Operation("behind", "behind", (), ("nearest_nearness", "most_nearness", "object_count")),
         Operation("jump", "skip", {"next_node": "node"}),
     ),
     "tree-node": (
