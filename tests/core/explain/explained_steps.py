@@ -182,7 +182,8 @@ def traces() -> dict[str, dict[str, Trace]]:
     edge_on = [[-0.5, -0.5, 0, 1], [0.5, 0.5005, 0.5, 1], [1.5, 1.501, 1, 1]]
     with_edge_on = ClipScene(np.array([RARE_CLIP["grid-ties"], edge_on], float), size=(8, 8))
     rare["edge-on"] = trace(with_edge_on, Settings(visibility="ray-casting", cull="none"))
-    alone = ClipScene(np.array([[[-0.8, -0.7, 0, 1], [0.9, -0.4, 0, 1], [0.1, 0.8, 0, 1]]]), size=(16, 12))
+    corners = np.array([[[-0.8, -0.7, 0, 1], [0.9, -0.4, 0, 1], [0.1, 0.8, 0, 1]]])
+    alone = ClipScene(corners, np.eye(3)[None], (16, 12))
     rare["smoothed"] = trace(alone, Settings(antialiasing="fxaa"))
     # A shader that discards half of a square, and calls a function.
     square = square_scene("if (vUv.x > 0.5) discard; c = vec4(length(vUv));", (4, 4))
