@@ -183,6 +183,8 @@ EDITABLE = {
 """By name, which the command line takes before ``=``."""
 _FIXED = "It chooses what is drawn, and has no listing."
 NOT_EDITABLE = {
+    "object_culling": "It asks boxes of whole meshes, before there are triangles.",
+    "hierarchy": "Its listing builds a tree of all boxes.",
     "clipping": "Its listing builds polygons of any number of corners.",
     "coverage": "The edge functions of all triangles are set up together, in numbers of their own.",
     "polygon_mode": _FIXED,

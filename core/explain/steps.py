@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 from importlib import import_module
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -244,10 +245,12 @@ def row_sentence(trace: StageTrace, position: int) -> str:
     last = trace.explain(position)
     assert last is not None
     deciding = [e for e in last.earlier if (said := row_of(e.key)) is not None and said.decides]
-    first, *others = (_sentence_of(trace, row, e) for e in (*deciding, last))
-    place, colon, _ = first.partition(": ")
-    beginning = place + colon if colon else ""
-    return " ".join([first, *(capitalized(text.removeprefix(beginning)) for text in others)])
+    said = [_sentence_of(trace, row, e) for e in (*deciding, last)]
+    whole = said[:1]
+    for before, text in pairwise(said):
+        name, colon, rest = text.partition(": ")
+        whole.append(capitalized(rest) if colon and before.startswith(name) else text)
+    return " ".join(whole)
 
 
 def remarks(trace: StageTrace, first: int, end: int) -> list[str]:

@@ -198,7 +198,7 @@ class Pieces:
     """(Q,) int64, counts the pieces of one triangle in the order in which they were cut; 0: the whole triangle."""
 
     def take(self, index: Integers) -> "Pieces":
-        """Return the pieces of ``index``, in that order."""
+        """Return the pieces of ``index`` (R,), in that order."""
         return Pieces(*(values.take(index, axis=0) for values in vars(self).values()))
 
 

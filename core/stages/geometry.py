@@ -269,6 +269,10 @@ class Geometry:
     @cached_property
     def kept_of_primitive(self) -> Integers:
         """(P,) int64, which of ``kept`` each primitive is, or was clipped from."""
+        if self.kept_pieces is None:
+            place = np.empty(int(self.kept.triangle.max(initial=-1)) + 1, np.int64)
+            place[self.kept.triangle] = np.arange(len(self.kept))
+            return np.asarray(place[self.primitives.triangle])
         count = np.ones(len(self.kept), np.int64)
         if self.clipped is not None:
             count[self.clipped.clipped] = np.maximum(self.clipped.counts[-1] - 2, 0)

@@ -116,12 +116,12 @@ def _process(
         check_needs(scene, settings)
     with counts["transform"]:
         vertices = transform_vertices(scene) if scene.program is None else vertex_stage(scene)
-    with counts["cull"]:
-        drawing, before = drawing_order(scene, vertices, settings), None
+        before = None
         if isinstance(chosen, Before):
-            before, drawn = chosen, drawing.order[: chosen.place]
-            chosen = np.unique(drawn if chosen.then < 0 else np.append(drawn, chosen.then))
-    with counts["transform"]:
+            with counts["cull"]:
+                before, order = chosen, drawing_order(scene, vertices, settings).order
+            drawn = order[: before.place]
+            chosen = np.unique(drawn if before.then < 0 else np.append(drawn, before.then))
         assembled = assemble(scene, vertices, settings, counts["transform"], chosen)
         triangle_count = len(assembled)
         counts["transform"].incoming = counts["transform"].outgoing = triangle_count
@@ -159,7 +159,7 @@ def _process(
         wanted = culled.kept
         if raster is not None and vertices.rings is None:
             wanted = wanted & ~is_beside(window, assembled.corner, raster)
-        pieces = None
+        drawing, pieces = drawing_order(scene, vertices, settings), None
         if chosen is None and drawing.is_as_given and wanted.all():
             kept = assembled
         elif drawing.pieces is None:

@@ -107,7 +107,7 @@ PAIRS_OF = 40
 
 @tabulates("depth", tuple(SORT_OPERATIONS), Level.STAGE)
 def sort_table(trace: StageTrace, rows: Integers, position: int) -> StepTable:
-    """Return the order so far, or, when all are sorted, Newell's tests of every pair."""
+    """Return the order so far, of ``rows`` (R,), or, when all are sorted, Newell's tests of every pair."""
     found: SortedTriangles = trace.extra["sorted"]
     done = trace.steps.position_after(int(rows[-1]))
     if position > done and 2 <= len(found.distance) <= PAIRS_OF:

@@ -194,7 +194,7 @@ _COLUMNS = (
 
 @tabulates("depth", tuple(TREE_OPERATIONS), Level.STAGE)
 def tree_table(trace: StageTrace, rows: Integers, position: int) -> StepTable:
-    """Return the nodes begun so far, indented, with what they cut and when they are drawn."""
+    """Return the nodes of ``rows`` (R,) begun so far, indented, with what they cut and when they are drawn."""
     tree: BspTree = trace.extra["tree"]
     steps, columns = trace.steps, trace.columns
     begun = rows[steps.starts[rows] < position]

@@ -17,6 +17,7 @@ from core.edits import Edit, edited_settings
 from core.framebuffer.display import to_display
 from core.records.arrays import Flags
 from core.records.frame import Frame
+from core.records.listing import read_expression
 from core.scene import AnyScene, Scene
 from core.settings import settings_from_texts
 from core.study.planner.trials import difference
@@ -110,7 +111,7 @@ def is_right(text: str, situation: Situation) -> bool:
 
 def value_of(text: str, situation: Situation) -> Any:
     """Return a number that a name or a call stands for, as ``drawn``; ValueError where there is none."""
-    return np.asarray(evaluate(ast.parse(text, mode="eval").body, _Names(situation))).item()
+    return np.asarray(evaluate(read_expression(text), _Names(situation))).item()
 
 
 def said_instead(text: str, situation: Situation) -> str:

@@ -44,8 +44,7 @@ def test_a_wrong_formula_shows_in_one_place_and_hides_in_another(rule: WrongRule
 
 def test_names_are_unique_and_unknown_ones_refused() -> None:
     runs = {clipping, coverage, depths, scan_conversion, fragments, lines, textures}
-    formulas = {cutting, depths, planes, scan_conversion, scan_lines, smoothing}
-    formulas = {boxes, cutting, depths, planes, scan_conversion, smoothing}
+    formulas = {boxes, cutting, depths, planes, scan_conversion, scan_lines, smoothing}
     formulas |= {surfaces, textures, transforms, visible_work}
     count = sum(len(module.TWINS) for module in runs) + sum(len(module.RULES) for module in formulas)
     assert len(MISTAKES) == count + len(SHADERS)
