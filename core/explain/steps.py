@@ -245,9 +245,9 @@ def row_sentence(trace: StageTrace, position: int) -> str:
     last = trace.explain(position)
     assert last is not None
     deciding = [e for e in last.earlier if (said := row_of(e.key)) is not None and said.decides]
-    said = [_sentence_of(trace, row, e) for e in (*deciding, last)]
-    whole = said[:1]
-    for before, text in pairwise(said):
+    texts = [_sentence_of(trace, row, e) for e in (*deciding, last)]
+    whole = texts[:1]
+    for before, text in pairwise(texts):
         name, colon, rest = text.partition(": ")
         whole.append(capitalized(rest) if colon and before.startswith(name) else text)
     return " ".join(whole)
