@@ -26,6 +26,7 @@ from lessons.world_scenes import (
     of_mesh,
     sun,
     textured_floor,
+    two_boxes,
     z_fighting,
 )
 
@@ -341,6 +342,14 @@ CATALOGUE = (
         boxes_around,
         RunPlace("cull", 'kind == "box-outside"'),
         {"object_culling": "frustum", "hierarchy": "none"},
+    ),
+    BuiltInScene(
+        "two-boxes",
+        "Two boxes on a ray",
+        "A ray meets the nearer box, passes beside all that is in it, and hits a triangle in the farther one.",
+        two_boxes,
+        RunPlace("depth", 'kind == "tree-leaf" and enter_z < 5'),
+        {"visibility": "ray-casting-tree", "leaf_size": "12"},
     ),
     BuiltInScene(
         "teapot",

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from math import atan
 
 import numpy as np
 
@@ -41,6 +42,30 @@ def boxes_around() -> Scene:
     camera = Camera(eye=np.array([0.0, 1.6, 0.0]), target=np.array([0.0, 1.6, -1.0]), near=0.5, far=28.0)
     weak = DirectionalLight(np.array([-0.5, -0.3, -0.9]), np.full(3, 0.4))
     return Scene(tuple(meshes), camera, (sun(), weak), TEACHING_SIZE)
+
+
+def two_boxes() -> Scene:
+    """Return a box and, before it to the right, one with an edge pushed in: the box around it has room to pass through.
+
+    Notes
+    -----
+    On 17 x 17 pixels, the rays of row 8 run one unit in depth for every eighth of a unit to the side.
+    """
+    near, far = cube(1.0), cube(1.0)
+    wedge = near.positions * (2.0, 3.0, 2.0) + (2.0, 0.0, -4.0)
+    pushed = (wedge[:, 0] < 2) & (wedge[:, 2] < -4)
+    wedge[pushed, 0], wedge[pushed, 2] = 1.75, -4.75
+    sides = np.cross(*(wedge[near.triangles[:, k]] - wedge[near.triangles[:, 0]] for k in (1, 2)))
+    normals = near.normals.copy()
+    normals[near.triangles] = (sides / np.linalg.norm(sides, axis=1, keepdims=True))[:, None]
+    meshes = (
+        replace(near, positions=wedge, normals=normals, name="wedge"),
+        replace(far, positions=far.positions * (5.5, 5.0, 2.0) + (0.25, 0.0, -8.0), name="box"),
+    )
+    camera = Camera(
+        np.zeros(3), np.array([0.0, 0.0, -1.0]), field_of_view=2 * atan(17 / 16), near=0.5, far=20.0
+    )
+    return Scene(meshes, camera, (sun(), DirectionalLight(np.array([-0.5, -0.3, -0.9]))), TEACHING_SIZE)
 
 
 def z_fighting() -> Scene:

@@ -75,7 +75,7 @@ def walking_rows(objects: ObjectCulling) -> InsertedRows:
         "node_lower": lower,
         "node_upper": upper,
         "node_depth": tree.depth[node],
-        "object_count": tree.count[node],
+        "object_count": tree.object_count[node],
         "p_corner": np.where(is_along, upper, lower),
         "n_corner": np.where(is_along, lower, upper),
         "far": objects.sides.far[node, plane],

@@ -53,6 +53,13 @@ class BoxTree:
         return self.first[self.subtree_end] - self.first[:-1]
 
     @cached_property
+    def object_count(self) -> Integers:
+        """(N,) int64, how many different objects the subtree of every node has."""
+        if len(np.unique(self.items)) == len(self.items):
+            return self.count
+        return np.array([len(np.unique(self.items_of(node))) for node in range(len(self))], np.int64)
+
+    @cached_property
     def is_leaf(self) -> Flags:
         """(N,) bool."""
         return np.asarray(self.subtree_end == np.arange(1, len(self) + 1))

@@ -17,6 +17,7 @@ from core.settings import families
 from core.study.family import StudyFamily
 from core.study.whole_picture import PIPELINE, standing_in
 from core.trees.measured import HIERARCHY
+from core.visibility.measured_loops import LOOPS
 
 OWN = (
     LINE,
@@ -34,6 +35,7 @@ OWN = (
     ANTIALIASING,
     SHADING,
     VISIBILITY,
+    LOOPS,
     CULL,
     DEPTH_TEST_TIME,
     HIERARCHY,

@@ -97,6 +97,8 @@ class StudyFamily:
     """Whether it measures on a scene, and with settings, that are given."""
     more: tuple[Candidate, ...] = ()
     """Points after those of the table: a method with other numbers."""
+    only: tuple[str, ...] = ()
+    """The methods of the table that are points; none: all of them."""
 
     def candidates(self, base: Settings) -> tuple[Candidate, ...]:
         """Return the points in the order of the table."""
@@ -104,7 +106,7 @@ class StudyFamily:
         for place, family in enumerate(self.varies):
             if family not in table.families:
                 continue
-            for name in table.names(family):
+            for name in self.only or table.names(family):
                 if place == 0 or name != getattr(base, family):
                     found.append(Candidate(f"{family}={name}", table.get(family, name).title))
         return (*found, *self.more)

@@ -66,7 +66,7 @@ def building_rows(grown: ObjectTree, settings: Settings) -> InsertedRows:
         "node_depth": tree.depth,
         "node_lower": tree.lower,
         "node_upper": tree.upper,
-        "object_count": tree.count,
+        "object_count": tree.object_count,
         "leaf_size": np.full(count, settings.leaf_size),
         "octree_depth": np.full(count, settings.octree_depth),
     }
@@ -90,13 +90,9 @@ def building_rows(grown: ObjectTree, settings: Settings) -> InsertedRows:
 
 
 def _cells(tree: BoxTree) -> dict[str, np.ndarray]:
-    """Return the middle of every cell and the objects of its octants, as columns; NaN and -1 of a leaf.
-
-    A cell lists an object once for each leaf below it; what it was cut with is the number of different ones.
-    """
+    """Return the middle of every cell and the objects of its octants, as columns; NaN and -1 of a leaf."""
     middle, counts = np.full((len(tree), 3), np.nan), np.full((len(tree), 8), -1)
-    objects = np.array([len(np.unique(tree.items_of(node))) for node in range(len(tree))], np.int64)
     for node in np.flatnonzero(~tree.is_leaf).tolist():
         middle[node] = octants_of(tree.lower[node], tree.upper[node])[0]
-        counts[node] = objects[tree.children(node)]
-    return {"middle": middle, "octant_counts": counts, "object_count": objects}
+        counts[node] = tree.object_count[tree.children(node)]
+    return {"middle": middle, "octant_counts": counts}

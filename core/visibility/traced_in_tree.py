@@ -124,7 +124,7 @@ def _box_rows(source: TraceSource, walk: TreeWalk, visits: Visits, times: Intege
         "node_count": np.full(len(ray), len(tree)),
         "is_box": np.ones(len(ray), bool),
         "is_opened": verdict == OPENED,
-        "object_count": tree.count[node],
+        "object_count": tree.object_count[node],
         "nearest": nearest,
         "nearest_nearness": np.where(nearest < 0, np.nan, value),
         "most_nearness": rays.nearness(enter[2], node),

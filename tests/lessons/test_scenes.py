@@ -74,7 +74,7 @@ def test_the_catalogue():
         "line-strip", "points", "triangle-strip", "polygon", "polygon-holes", "weiler-atherton", "connecting-edges",
         "pentagram", "near-plane", "intersecting", "circle-of-bars", "depth-table",
         "four-layers", "z-fighting", "textured-floor",
-        "lit-floor", "cube", "boxes-around", "teapot", "sphere", "torus", "knot",
+        "lit-floor", "cube", "boxes-around", "two-boxes", "teapot", "sphere", "torus", "knot",
     )  # fmt: skip
     for scene in CATALOGUE:
         assert scene.title[0].isupper()

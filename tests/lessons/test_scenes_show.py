@@ -113,6 +113,9 @@ CLAIMS = {
     "boxes-around": lambda s: (
         not unlike(s, object_culling="none") and np.sum(s.column("cull", "box_verdict") == "outside") >= 5
     ),
+    "two-boxes": lambda s: (
+        not unlike(s, visibility="z-buffer") and {"tree-missed", "tree-leaf"} < s.kinds("depth")
+    ),
     "teapot": lambda s: s.document.triangle_count == 2256,
     "sphere": lambda s: s.document.triangle_count == 2208 and "lit" in s.kinds("shade"),
     "torus": lambda s: s.run.stage("depth").marks["depth-failed"].any(),

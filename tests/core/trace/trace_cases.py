@@ -91,6 +91,7 @@ LEFT_OUT = (
     "z-fighting",
     "lit-floor",
     "boxes-around",
+    "two-boxes",
     "teapot",
     "sphere",
     "torus",

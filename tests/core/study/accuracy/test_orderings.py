@@ -12,7 +12,7 @@ from tests.core.study.accuracy.untimed_runs import run
 
 PUBLISHED = {"orientation", "depth-steps"}
 """Families that are published tests: ``test_published`` derives them."""
-CHOICES = {"polygon_mode", "pixel_center", "provoking", "wrap", "blend"}
+CHOICES = {"object_culling", "polygon_mode", "pixel_center", "provoking", "wrap", "blend"}
 """Families that choose what is to be seen, and share one derivation."""
 
 
@@ -221,6 +221,20 @@ def test_visibility(seed: int) -> None:
     assert found["painters"].errors["wrong-visible"] == 0 < found["last-drawn"].errors["wrong-visible"]
 
 
+def test_loops() -> None:
+    # A loop over rays asks all triangles for every pixel. On 16 x 16 pixels the tree asks more than a z-buffer sets up
+    # and tests, until there are triangles enough; with a fourth of the pixels it asks a third at most.
+    total, few, many = "set up, tested or asked", {}, {}
+    for found, rings, side in ((few, 8, 16), (many, 72, 16), ({}, 72, 8)):
+        found |= {name: each.counts for name, each in run("loops", rings=rings, side=side).items()}
+        drawn = found["z-buffer"]["triangles set up"]
+        assert found["ray-casting-by-pixel"][total] == side * side * drawn
+        assert found["z-buffer"][total] == drawn + found["z-buffer"]["fragments tested"]
+    assert few["z-buffer"][total] < few["ray-casting-tree"][total] < few["ray-casting-by-pixel"][total]
+    assert many["ray-casting-tree"][total] < many["z-buffer"][total] < many["ray-casting-by-pixel"][total]
+    assert found["ray-casting-tree"][total] < many["ray-casting-tree"][total] / 3
+
+
 def test_cull() -> None:
     # A ray enters a closed convex surface once and leaves it once: half of what is covered faces away, and is hidden.
     closed = run("cull", "closed", rings=6)
@@ -231,6 +245,20 @@ def test_cull() -> None:
     assert closed["none"].errors["wrong-visible"] < 500 < closed["front"].errors["wrong-visible"]
     # Without its upper part the surface shows its inside, which is a back.
     assert run("cull", "open", rings=6)["back"].errors["wrong-visible"] > 0
+
+
+def test_hierarchy() -> None:
+    # A mesh as one object: every ray asks its box, and all that meet it ask 120 triangles. A BVH of n leaves with one
+    # triangle each has 2 n - 1 nodes, and lists each once. An octree lists one in every cell that it touches.
+    trees = run("hierarchy", leaf=1, rings=6)
+    counts = {name: each.counts for name, each in trees.items()}
+    assert counts["none"]["boxes asked"] == 48 * 48
+    assert counts["none"]["triangles asked"] % 120 == 0
+    for name in ("bvh", "bvh-area"):
+        assert (counts[name]["nodes"], counts[name]["references"]) == (2 * 120 - 1, 120)
+        assert counts[name]["triangles asked"] < counts["none"]["triangles asked"] / 10
+    assert counts["octree"]["references"] > 120
+    assert {each.errors["wrong-visible"] for each in trees.values()} == {0}
 
 
 @pytest.mark.parametrize("family", sorted(CHOICES))
