@@ -55,8 +55,9 @@ def two_boxes() -> Scene:
     wedge = near.positions * (2.0, 3.0, 2.0) + (2.0, 0.0, -4.0)
     pushed = (wedge[:, 0] < 2) & (wedge[:, 2] < -4)
     wedge[pushed, 0], wedge[pushed, 2] = 1.75, -4.75
-    sides = np.cross(*(wedge[near.triangles[:, k]] - wedge[near.triangles[:, 0]] for k in (1, 2)))
-    normals = near.normals.copy()
+    first, second, third = (wedge[near.triangles[:, k]] for k in range(3))
+    sides = np.cross(second - first, third - first)
+    normals = np.empty_like(wedge)
     normals[near.triangles] = (sides / np.linalg.norm(sides, axis=1, keepdims=True))[:, None]
     meshes = (
         replace(near, positions=wedge, normals=normals, name="wedge"),
