@@ -60,11 +60,11 @@ def contrast(step: StepValues) -> Said:
     lumas, found = _lumas(step), step.named("contrast", "C")
     five = [lumas[name] for name in "nswem"]
     least = step.named("threshold", r"C_{\mathrm{least}}")
-    text = f"the lumas of it and its four neighbours range over {found}, "
+    text = f"the largest and the smallest luma of it and its four neighbours differ by {found}: "
     if step.kind == "kept":
-        text += f"less than {least}: there is no edge, and its colour stays."
+        text += f"less than {least}, so there is no edge, and its colour stays."
     else:
-        text += f"at least {least}: an edge passes here."
+        text += f"at least {least}, so an edge passes here."
     asked = concludes("edge", "edge" if step.kind == "smoothed" else "no edge", found.compared(r"\ge", least))
     return f"{step.pixel_name}: {text}", formula_of(
         found.equals(call("max", *five) - call("min", *five)), asked

@@ -21,7 +21,7 @@ def _cull_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
     verdicts = [f"{counts['covered']:,} kept"] if counts["covered"] else []
     verdicts += [f"{counts['rejected']:,} dropped"] if counts["rejected"] else []
     boxes, tests = counts["boxes"], counts["rows"] - counts["boxes"]
-    asked = [counted(boxes, "step about a box", "steps about boxes")] if boxes else []
+    asked = [counted(boxes, "step on a box", "steps on boxes")] if boxes else []
     if boxes and not tests:
         return asked
     return [*asked, counted(tests, "test"), *(verdicts or ["nothing decided yet"])]

@@ -67,7 +67,7 @@ def compared(step: StepValues) -> Said:
     shown, shown_old = pair_text(new, old)
     verdict, than = ("passes", "larger") if step.flag("passes") else ("fails", "smaller")
     text = (
-        f"{step.pixel_name} {verdict}: {measure(step)} {shown} is {than} than {shown_old} of "
+        f"{step.pixel_name} {verdict}: its {measure(step)}, {shown}, is {than} than the {shown_old} of "
         f"{step.named_primitive(nearest)}, and by more than both errors together."
     )
     return text, formula_of(concludes("passes", verdict, named(NEW, new).compared(">", named(NEAREST, old))))

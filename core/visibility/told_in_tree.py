@@ -112,7 +112,7 @@ def following(step: StepValues) -> Said:
 @explains("depth.tree-leaf.leaf", asks=is_opened, decides=True)
 def leaf(step: StepValues) -> Said:
     """A box whose triangles are asked."""
-    return f"{_box(step)}: the box is a leaf, and what it lists is asked: {_held(step)}, with a row if they are hit."
+    return f"{_box(step)}: the box is a leaf, and the ray is tested against what it holds: {_held(step)}."
 
 
 @explains("depth.tree-hidden.hide")

@@ -83,12 +83,12 @@ def sorts(step: StepValues) -> Said:
 def live(step: StepValues) -> Said:
     """How many surfaces are live in a segment."""
     count = step.whole("live_count")
-    half = ", a half of a longer one" if step.whole("halvings") else ""
+    half = ", half of a longer segment" if step.whole("halvings") else ""
     if count == 1:
-        return f"{_segment(step)}: one {step.nouns.one} is live."
+        return f"{_segment(step)}{half}: one {step.nouns.one} is live."
     pixel = step.whole("right") - step.whole("left") == 1
     where = "the segment's one centre" if pixel else "the segment's first and last centre"
-    return f"{_segment(step)}: {count} {step.nouns.many} are live, to be compared at {where}{half}."
+    return f"{_segment(step)}{half}: {count} {step.nouns.many} are live, to be compared at {where}."
 
 
 @explains("depth.scan-alone.alone")
@@ -123,8 +123,8 @@ def compared(step: StepValues) -> Said:
     shown, shown_old = pair_text(new, old)
     found, than = ("nearer", "larger") if step.flag("passes") else ("farther", "smaller")
     text = (
-        f"{step.pixel_name}: {step.name} is {found} at {_end(step)}, as its {measure(step)} {shown} is {than} than "
-        f"{shown_old} of {step.named_primitive(step.whole('nearest'))}, and by more than both errors together."
+        f"{step.pixel_name}: {step.name} is {found} at {_end(step)}, as its {measure(step)}, {shown}, is {than} than "
+        f"the {shown_old} of {step.named_primitive(step.whole('nearest'))}, and by more than both errors together."
     )
     return text, formula_of(concludes("nearer", found, named(NEW, new).compared(">", named(NEAREST, old))))
 
@@ -248,6 +248,7 @@ shows(
 _OF_SEGMENTS = ("left", "right", "halvings")
 hides("depth.scan-enter|scan-leave|scan-sort|out-of-range|discarded", _OF_SEGMENTS)
 hides("depth.scan-span|scan-pixel", ("halvings",))
+hides("depth.scan-pixel", "mnabcd")
 
 
 _ACTIVE = (

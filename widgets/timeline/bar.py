@@ -23,12 +23,12 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QAbstractSlider, QSizePolicy, QToolTip, QWidget
 
 from widgets.basics.theme import current_theme, theme_notifier
-from widgets.timeline.run_picture import RunView, TimelineRun, flag_height, lane_height, ruler_height
+from widgets.timeline.run_picture import LANES, RunView, TimelineRun, flag_height, lane_height, ruler_height
 
 _SMALLEST_SPAN = 8.0
 _LARGEST_VALUE = 2**31 - 1
 """The last position that a slider can have."""
-LANES_AT_MOST = 4
+LANES_AT_MOST = len(LANES)
 """Most kinds of outcomes that one stage has."""
 
 

@@ -28,7 +28,7 @@ def draw_square(draws: Draws) -> Draft:
         corners = [(low, -20), (high, 30), (column - 20, 5)]
         right, belief, condition = "no", "yes", "not covered"
         sentence = (
-            "A pixel is its centre: the centre lies outside of the edge, so nothing of the pixel is drawn."
+            "A pixel is its centre: the centre lies outside the edge, so nothing of the pixel is drawn."
         )
     refutation = Refutation(
         sentence,
