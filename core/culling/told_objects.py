@@ -162,8 +162,8 @@ def planes_table(trace: StageTrace, rows: Integers, position: int) -> StepTable:
     title, objects = f"Node {node}, plane by plane", trace.extra["culled"].objects
     leaves = counted(int(objects.tree.is_leaf.sum()), "leaf", "leaves")
     note = (
-        f"Boxes were tested against planes {counted(len(objects.plane), 'time')}; without the tree, {leaves} one by one, "
-        f"{counted(objects.one_by_one_count, 'time')}."
+        f"Boxes were tested against planes {counted(len(objects.plane), 'time')}; without the tree, {leaves} "
+        f"one by one, {counted(objects.one_by_one_count, 'time')}."
     )
     is_last = int(trace.columns["visit"][rows[0]]) == len(objects.visited) - 1
     closing = int(rows[-1])
