@@ -9,14 +9,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core import STAGES, Settings, render, trace
-from core.culling.culling import PLANES
-from core.culling.object_culling import OUTSIDE
+from core.culling.culling import PLANE_COEFFICIENTS, PLANES
+from core.culling.object_culling import OUTSIDE, ViewPlanes, box_against_planes, cull_objects, frustum
 from core.methods import table
 from core.records.frame import StageCount
 from core.scene import Camera, Mesh, Scene
 from core.stages.vertices import Geometry, process_geometry
+from core.transform.vertex_stage import transform_vertices
 from lessons.scenes import make_scene
 from lessons.shapes import cube
+from tests.core.trees.test_trees import BOXES, grown, objects_of
 
 ORDERS = table.names("hierarchy")
 PLACE = st.tuples(*[st.integers(-12, 12).map(lambda n: n / 2)] * 3)
@@ -128,3 +130,54 @@ def test_planes_are_asked_in_the_order_of_their_names() -> None:
     first = np.flatnonzero(np.diff(objects.visit, prepend=-1))
     assert (objects.plane[first[:1]] == PLANES.index("near")).all()
     assert (np.diff(objects.plane) > 0)[np.diff(objects.visit) == 0].all()
+
+
+WHOLE = st.integers(-3, 3)
+PLANES_IN_WHOLE_NUMBERS = st.lists(st.tuples(WHOLE, WHOLE, WHOLE, st.integers(0, 9)), min_size=6, max_size=6)
+
+
+@given(BOXES, PLANES_IN_WHOLE_NUMBERS, st.sampled_from(ORDERS))
+def test_the_walk_is_that_of_the_listing_where_boxes_touch_planes_too(boxes, rows, hierarchy: str) -> None:
+    # In halves and whole numbers nothing is rounded: corners lie in planes exactly.
+    objects = objects_of(boxes)
+    tree = grown(hierarchy, objects)
+    planes = ViewPlanes(np.array(rows, float), np.abs(np.array(rows, float)))
+    found = cull_objects(tree, frustum, planes, len(objects))
+    walked, asked = [], 0
+
+    def walk(node: int, open_planes: list[int]) -> None:
+        nonlocal asked
+        box = tree.lower[node].tolist(), tree.upper[node].tolist()
+        verdict, crossed = box_against_planes(*box, rows, found.sides.slack[node], open_planes)
+        sides = [found.sides.side[node, k] for k in open_planes]
+        asked += sides.index(OUTSIDE) + 1 if verdict == "outside" else len(sides)
+        walked.append((node, ("outside", "inside", "crossing").index(verdict)))
+        for child in tree.children(node) if verdict == "crossing" else []:
+            walk(child, crossed)
+
+    root = 0
+    while root < len(tree):
+        walk(root, list(range(6)))
+        root = int(tree.subtree_end[root])
+    assert walked == list(zip(found.visited.tolist(), found.verdict.tolist(), strict=True))
+    assert asked == len(found.plane)
+
+
+@given(st.tuples(PLACE, SIDES), st.sampled_from(["perspective", "orthographic"]))
+def test_a_distance_is_rounded_by_no_more_than_its_slack(box, projection: str) -> None:
+    scene = boxes_scene([box], projection)
+    objects, stage = asked(scene, "none").culled.objects, transform_vertices(scene)
+    matrices = [
+        [[Fraction(number) for number in row] for row in matrix.tolist()]
+        for matrix in (PLANE_COEFFICIENTS, stage.projection, stage.view)
+    ]
+    exact = matrices[0]
+    for matrix in matrices[1:]:
+        exact = [
+            [sum(a * b for a, b in zip(row, column, strict=True)) for column in zip(*matrix, strict=True)]
+            for row in exact
+        ]
+    low, high = ([Fraction(c) for c in side[0].tolist()] for side in (objects.tree.lower, objects.tree.upper))
+    for k, (*normal, d) in enumerate(exact):
+        far = d + sum(max(n * a, n * b) for n, a, b in zip(normal, low, high, strict=True))
+        assert abs(Fraction(objects.sides.far[0, k]) - far) <= Fraction(objects.sides.slack[0, k])
