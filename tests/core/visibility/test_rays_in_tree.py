@@ -13,7 +13,7 @@ from core.pixel_history import why
 from core.visibility.rays_in_tree import meet_box, slabs, walk_tree
 from lessons.scenes import make_scene
 from tests.core.culling.test_object_culling import PLACE, SIDES, boxes_scene
-from tests.core.strategies import homogeneous_triangles
+from tests.core.strategies import clip_of_window, homogeneous_triangles
 
 HIERARCHIES = table.names("hierarchy")
 FRAMES = ("color", "depth", "primitive")
@@ -58,6 +58,15 @@ def test_of_equally_near_triangles_the_first_one_stays() -> None:
     scene = ClipScene(np.array([triangle] * 5), np.random.default_rng(1).random((5, 3, 4)), (9, 7))
     for hierarchy in HIERARCHIES:
         assert_same_picture(scene, hierarchy)
+
+
+@pytest.mark.parametrize("hierarchy", HIERARCHIES)
+def test_a_ray_meets_the_box_of_a_triangle_that_snapping_moves_over_it(hierarchy: str) -> None:
+    # The left edge lies right of the centres at 2.5, by less than snapping moves it: they are covered.
+    left = 2.5 + 1 / 1024
+    scene = ClipScene(clip_of_window([[(left, 1), (6, 1), (left, 6)]], (8, 8)), size=(8, 8))
+    assert (render(scene).primitive[:, 2] == 0).any()
+    assert_same_picture(scene, hierarchy)
 
 
 @given(st.lists(st.sampled_from([0.0, 1.0, 2.0, -1.0]), min_size=12, max_size=12))
