@@ -70,7 +70,10 @@ def test_values_are_kept_by_the_bytes_that_they_hold_together() -> None:
         "a and b are held once, whatever number of values has them"
     )
     history.put("c")
-    assert undone(history) == ["c", "b"], "what was before stays, however large it is"
+    assert undone(history) == ["c", "b"]
+    large = History("a", lambda state: {ord(state): 2 * BYTES_LIMIT})
+    large.put("b")
+    assert undone(large) == ["b", "a"], "what was before stays, however large it is"
 
 
 def undone(history: History[str]) -> list[str]:

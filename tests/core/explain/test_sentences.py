@@ -3,10 +3,21 @@
 import re
 
 import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
 
 from core import STAGES, Settings
 from core.explain import sentence, summary_sentence
-from core.explain.number_text import exact_text, pair_text, position_text
+from core.explain.number_text import (
+    FEW_STEPS,
+    exact_text,
+    fraction_text,
+    number_text,
+    pair_text,
+    parse_number,
+    position_text,
+    steps_apart,
+)
 from core.records.steps import Level
 from core.records.words import counted, joined
 from core.trace import Explanation
@@ -114,3 +125,28 @@ def test_words_and_numbers() -> None:
     assert position_text([float("nan"), -3.0]) == "(NaN, −3)"
     assert pair_text(0.5, 0.5) == ("0.5", "0.5")
     assert pair_text(0.1234567, 0.1234568) == ("0.1234567", "0.1234568")
+
+
+@given(st.floats(-10, 10), st.floats(1e-12, 1e-3))
+def test_two_numbers_are_written_alike_only_if_they_are_the_same(value: float, more: float) -> None:
+    first, second = pair_text(value, value + more)
+    assert (first == second) == (value == value + more)
+
+
+@given(st.integers(-2000, 2000))
+def test_a_mixed_fraction_reads_back_and_has_a_whole_part_only_where_there_is_one(count: int) -> None:
+    text = fraction_text(count / 256)
+    assert parse_number(text) == count / 256
+    assert (" " in text) == (abs(count) > 256 and count % 256 != 0)
+
+
+@given(st.floats(0.5, 2.0, width=32), st.integers(1, 2 * FEW_STEPS))
+def test_steps_of_float32_are_counted_where_they_are_few(value: float, steps: int) -> None:
+    above = float((np.float32(value).view(np.int32) + np.int32(steps)).view(np.float32))
+    few = f"{counted(steps, 'unit')} in the last place of float32 apart" if steps <= FEW_STEPS else ""
+    assert steps_apart(value, above, is_whole=False) == steps_apart(above, value, is_whole=False) == few
+
+
+@given(st.integers(-999_999, 999_999))
+def test_whole_numbers_keep_six_figures(value: int) -> None:
+    assert number_text(value) == str(value).replace("-", "\u2212")
