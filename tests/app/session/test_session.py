@@ -36,6 +36,26 @@ def test_forward_and_back_undo_each_other_on_all_levels(session: Session) -> Non
             session.go_to(0)
 
 
+def test_the_neighbouring_stage_is_entered_at_its_start_and_left_by_going_back(session: Session) -> None:
+    session.set_stage(STAGES[2], 1)
+    for direction in (1, -1):
+        before = session.cursor
+        session.next_stage(direction)
+        assert session.cursor.stage == STAGES[2 + direction]
+        assert session.cursor.position == 0
+        session.go_back()
+        assert session.cursor == before
+
+
+def test_a_scene_is_asked_about_as_long_as_anybody_asks(session: Session) -> None:
+    session.set_asked("one", is_open=True)
+    session.set_asked("other", is_open=False, by="lesson")
+    assert session.is_asked_about
+    assert (session.asker, session.asked_scenes) == ("exercise", {"one", "other"})
+    session.set_asked("", is_open=False)
+    assert not session.is_asked_about
+
+
 def test_equal_values_emit_nothing(session: Session, qtbot: QtBot) -> None:
     session.set_pin((3, 4))
     with qtbot.assertNotEmitted(session.changed):

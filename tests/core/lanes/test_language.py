@@ -222,3 +222,11 @@ def test_a_term_in_numbers_is_worth_its_result():
         again = compile_listing(f"def g(a):\n  return {text}\n").run([0], 1)
         assert again == equality.result
         assert in_symbols(equality.right).startswith("a − (b − c) · (−a)")
+
+
+def test_an_element_has_its_value_whatever_sum_its_index_is():
+    program = compile_listing("def f(xs, i):\n  r = xs[i - 1] + 10 * xs[i + 1] + 100 * xs[-i]\n  return r\n")
+    for i in (1, 2):
+        (equality,) = equalities(record_steps(program, [[2, 3, 5, 7], i])[0])
+        again = compile_listing(f"def g(a):\n  return {in_numbers(equality.right).replace('·', '*')}\n")
+        assert again.run([0], 1) == equality.result

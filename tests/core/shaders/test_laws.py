@@ -5,6 +5,7 @@ import pytest
 
 from core.lanes.nodes import Discard, If
 from core.shaders.lane_steps import Recorder
+from core.shaders.rules import EACH_RULES, WHOLE_RULES, rounded_to_int, whole_quotient, whole_remainder
 from tests.core.shaders.samples import SAMPLES, lane_of, random_lanes, shader_of
 
 LANES = 64
@@ -65,3 +66,21 @@ def test_ints_are_cut_off_and_wrap_around():
     body = "int big = 2147483647; int k = big + 1; c = vec4(float(-7 / 2), float(-7 % 2), float(k), float(int(-2.9)));"
     parts = shader_of(f"{head}void main() {{ {body} }}").run(random_lanes(2), 2).values["c"].parts
     assert [float(part) for part in parts] == [-3, -1, -(2.0**31), -2]
+
+
+def test_built_in_functions_keep_their_definitions():
+    random = np.random.default_rng(5)
+    i, n = (vectors / np.linalg.norm(vectors, axis=0) for vectors in random.normal(size=(2, 3, 40)))
+    n = np.array(WHOLE_RULES["faceforward"](n, i, n), float)
+    assert ((n * i).sum(axis=0) <= 0).all()
+    ratio = 0.75
+    refracted = np.array(WHOLE_RULES["refract"](i, n, (ratio,)), float)
+    along, beside = (refracted * n).sum(axis=0), i - (i * n).sum(axis=0) * n
+    np.testing.assert_allclose(np.linalg.norm(refracted, axis=0), 1, rtol=1e-6)
+    np.testing.assert_allclose(refracted - along * n, ratio * beside, atol=1e-6)
+    assert (along < 0).all()
+    assert [EACH_RULES["step"](2.0, value) for value in (1.5, 2.0, 2.5)] == [0, 1, 1]
+    tops, bottoms = np.array([7, -7, 7, -7, 7]), np.array([2, 2, -2, -2, 0])
+    np.testing.assert_array_equal(whole_quotient(tops, bottoms), [3, -3, -3, 3, 0])
+    np.testing.assert_array_equal(whole_remainder(tops, bottoms), [1, -1, 1, -1, 7])
+    np.testing.assert_array_equal(rounded_to_int(np.array([np.nan, -2.9, 1e12])), [0, -2, 2**31 - 1])

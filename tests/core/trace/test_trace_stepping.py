@@ -197,6 +197,9 @@ def test_columns_and_marks_have_a_value_a_row(name):
 def test_marks_of_the_raster_agree_with_its_columns(fill):
     found = trace(SCENES["shared-edge"], Settings(fill=fill, fill_rule="shared-edge")).stage("raster")
     columns, marks = found.columns, found.marks
+    rows = range(found.steps.row_count)
+    tested = sum(found.summary(row, row + 1)["tested"] for row in rows)
+    assert found.summary(0, len(rows))["tested"] == tested
     is_pixel = found.pixel[:, 1] >= 0
     assert np.array_equal(marks["covered"], columns["covered"])
     assert np.array_equal(marks["rejected"], is_pixel & ~columns["covered"])
