@@ -50,7 +50,7 @@ class LoopsTask(SeenTask):
                 "boxes asked": int(walk.box_count.sum()),
                 "triangles asked": int(walk.asked_count.sum()),
             }
-        return {"set up, tested or asked": sum(asked.values()), **asked}
+        return {"asked in all: triangles, fragments, boxes": sum(asked.values()), **asked}
 
 
 def make_loops(assignment: Assignment) -> LoopsTask:

@@ -105,6 +105,12 @@ class Seen:
     """Largest w over smallest in a triangle."""
     layers: int
     """Most fragments in a pixel, where it was looked at."""
+    failing: int
+    """Fragments that fail the depth test there, so that an early test leaves their shading out; 0: it may not."""
+    fragments: int
+    """Fragments there."""
+    pixels: int
+    """Of the whole picture."""
     depth: tuple[float, float] | None
     """Least and greatest window depth; ``None``: nothing is in view."""
     far: dict[str, Integers]
@@ -140,6 +146,13 @@ def look(scene: AnyScene, everything: Settings, regions: tuple[tuple[int, int, i
         in_view=len(primitives),
         w_ratio=float((w.max(axis=1) / w.min(axis=1)).max(initial=1.0)),
         layers=max(int(frame.cover_count.max(initial=0)) for frame in frames),
+        failing=sum(
+            frame.statistics["depth"].incoming - frame.statistics["depth"].outgoing for frame in frames
+        )
+        if scene.program is None and everything.polygon_mode == "fill"
+        else 0,
+        fragments=sum(frame.statistics["depth"].incoming for frame in frames),
+        pixels=scene.size[0] * scene.size[1],
         depth=(float(depth.min()), float(depth.max())) if depth.size else None,
         far=far_triangles(geometry),
         texels=_longest_step(geometry, scene),

@@ -107,7 +107,7 @@ def _fact(choice: Choice, seen: Seen, is_compared: bool) -> str:
         case "shading":
             return _light_fact(seen)
         case "visibility":
-            return f"A pixel has at most {counted(seen.layers, 'fragment')}."
+            return _visibility_fact(seen)
         case "depth" if not is_compared:
             return "Depth is not compared, so its format does not matter."
         case "blend" if choice.dearest == "additive":
@@ -117,6 +117,19 @@ def _fact(choice: Choice, seen: Seen, is_compared: bool) -> str:
         case "blend":
             return "Every alpha is 1: nothing shines through."
     return ""
+
+
+def _visibility_fact(seen: Seen) -> str:
+    text = f"A pixel has at most {counted(seen.layers, 'fragment')}."
+    if seen.failing:
+        fail = "fails" if seen.failing == 1 else "fail"
+        many = counted(seen.fragments, "fragment")
+        text += f" Of {many} that were looked at, {seen.failing:,} {fail} the depth test: tested early, "
+        text += "they need no shading."
+    if seen.in_view and seen.corner_count == 3:
+        asked = counted(seen.in_view, "{one}", "{many}")
+        text += f" Rays, one for each pixel, would ask {asked} {counted(seen.pixels, 'time')}."
+    return text
 
 
 def _texture_fact(seen: Seen) -> str:

@@ -224,7 +224,7 @@ def test_visibility(seed: int) -> None:
 def test_loops() -> None:
     # A loop over rays asks all triangles for every pixel. On 16 x 16 pixels the tree asks more than a z-buffer sets up
     # and tests, until there are triangles enough; with a fourth of the pixels it asks a third at most.
-    total, few, many = "set up, tested or asked", {}, {}
+    total, few, many = "asked in all: triangles, fragments, boxes", {}, {}
     for found, rings, side in ((few, 8, 16), (many, 72, 16), ({}, 72, 8)):
         found |= {name: each.counts for name, each in run("loops", rings=rings, side=side).items()}
         drawn = found["z-buffer"]["triangles set up"]
