@@ -1,5 +1,6 @@
 """A trace is written in pieces: with progress, the same for every size of piece, and never as half a file."""
 
+import csv
 import io
 import json
 import sys
@@ -7,6 +8,9 @@ import sys
 import pytest
 
 from app.cli import trace, trace_tables
+from core import Settings
+from core import trace as core_trace
+from lessons.scenes import make_scene
 from tests.app.cli.cli_runs import run_program
 
 TRACED = ("trace", "shared-edge", "--triangle", "1", "--stage", "raster", "--size", "16x12")
@@ -67,3 +71,14 @@ def test_many_rows_with_sentences_are_announced(monkeypatch):
     assert line.endswith("csv and npz take seconds")
     assert len(json.loads(run.stdout)["rows"]) > 10
     assert run_program(*TRACED, "--format", "csv").stderr == ""
+
+
+def test_a_table_names_the_first_triangle_too_and_leaves_out_none() -> None:
+    stage = core_trace(make_scene("shared-edge"), Settings()).stage("raster")
+    text = "".join(part for _, part in trace_tables.csv_parts(stage))
+    rows = list(csv.DictReader(io.StringIO(text)))
+    known = ["" if number < 0 else str(number) for number in stage.triangle.tolist()]
+    assert [row["row_triangle"] for row in rows] == known
+    assert {"0", "1"} <= set(known)
+    pixels = [[row["pixel_column"], row["pixel_row"]] for row in rows]
+    assert pixels == [["", ""] if min(at) < 0 else [*map(str, at)] for at in stage.pixel.tolist()]

@@ -98,3 +98,13 @@ def test_it_destroys_detail_of_one_pixel() -> None:
     assert abs(filtered(dot)[4, 4] - (1 - DETAIL_SHARE)) < 1e-6
     board = np.indices((12, 12)).sum(axis=0) % 2 * 1.0
     assert np.ptp(filtered(board)[3:-3, 3:-3]) < 0.2
+
+
+def test_green_counts_most_blue_least_and_what_is_no_number_counts_as_0() -> None:
+    picture = np.zeros((3, 4, 4), np.float32)
+    picture[1, :3, :3] = np.eye(3)
+    picture[..., 3] = 1
+    np.testing.assert_allclose(smooth_edges(picture).luma[1], [0.299, 0.587, 0.114, 0], atol=1e-9)
+    odd = picture.copy()
+    odd[1, 3, 0] = np.nan
+    assert np.array_equal(smooth_edges(odd).luma, smooth_edges(picture).luma)

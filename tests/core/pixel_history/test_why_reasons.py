@@ -79,3 +79,18 @@ def test_many_triangles_around_a_pixel_are_listed_up_to_a_limit():
 def test_errors(pixel, triangle, message):
     with pytest.raises(ValueError, match=message):
         ask(window_scene(LOWER_LEFT), *pixel, triangle)
+
+
+def test_pieces_are_counted_as_they_are_drawn_and_a_division_mirrors_where_any_w_is_below_0():
+    # One corner behind the eye: two pieces are left. Divided by w first, the part behind it is mirrored.
+    clip = np.array([[[-0.9, -0.8, 0, 1], [0.9, -0.7, 0, 1], [0.1, 0.9, 0.2, -0.5]]])
+    for clipping in ("sutherland-hodgman", "after-divide"):
+        scene = ClipScene(clip, None, SIZE)
+        source = TraceSource(scene, Settings(clipping=clipping, cull="none"))
+        drawn = source.geometry.primitives.triangle
+        frame = source.picture.primitive
+        assert (frame == 0).any()
+        row, column = np.argwhere(frame == 0)[0].tolist()
+        link = why(source, column, row).fragments[0].link("clip")
+        assert link.values["piece_count"] == (drawn == 0).sum()
+        assert link.values["division"] == ("mirrored" if clipping != "sutherland-hodgman" else "")
