@@ -10,7 +10,7 @@ from app.session.moment import Moment
 from core.explain import variables
 from core.explain.number_text import parse_number
 from core.framebuffer.display import encode_linear, encode_srgb
-from core.pixel_history import PixelHistory, PixelState, why
+from core.pixel_history import PixelEvent, PixelHistory, PixelState, why
 from core.pixel_history.fragments import PixelPieces, pixel_pieces
 from core.pixel_history.told import count_sentences, event_reason, event_title, verdict_sentence
 from core.pixel_history.told_coverage import (
@@ -165,7 +165,7 @@ def _lines(history: PixelHistory, drawn: Nouns) -> Lines:
         entry = HistoryEntry(
             event_title(event, drawn),
             _value(event.before),
-            _value(event.out),
+            None if _is_unshaded(event) else _value(event.out),
             _value(event.after),
             mark,
             event_reason(event, drawn),
@@ -183,6 +183,11 @@ def _story(
 ) -> tuple[PixelStory, list[int | None]]:
     entries = tuple(entry for entry, _ in lines)
     return PixelStory(column, row, verdict, mark, entries), [triangle for _, triangle in lines]
+
+
+def _is_unshaded(event: PixelEvent) -> bool:
+    """Return whether a fragment has no colour, as an early depth test has kept it from being shaded."""
+    return any(link.key == "not-shaded" for link in event.chain)
 
 
 def _value(state: PixelState | None) -> PixelValue | None:
