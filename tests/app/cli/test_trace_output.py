@@ -82,3 +82,12 @@ def test_a_table_names_the_first_triangle_too_and_leaves_out_none() -> None:
     assert {"0", "1"} <= set(known)
     pixels = [[row["pixel_column"], row["pixel_row"]] for row in rows]
     assert pixels == [["", ""] if min(at) < 0 else [*map(str, at)] for at in stage.pixel.tolist()]
+
+
+def test_a_record_quotes_the_line_that_its_step_names_and_keeps_the_signs_of_infinities() -> None:
+    stage = core_trace(make_scene("shared-edge"), Settings()).stage("raster")
+    for position, done in trace_tables.explanations(stage, 0):
+        made = next(o for o in trace_tables.row_record(stage, 0)["operations"] if o["position"] == position)
+        assert done.listing is not None
+        assert made["code"] == done.listing.source.splitlines()[made["line"] - 1].strip()
+    assert trace_tables.plain([float("inf"), float("-inf"), float("nan")]) == ["Infinity", "-Infinity", None]

@@ -56,6 +56,13 @@ def test_a_scene_is_asked_about_as_long_as_anybody_asks(session: Session) -> Non
     assert not session.is_asked_about
 
 
+def test_a_pin_appears_in_the_middle_whatever_way_it_is_nudged(session: Session) -> None:
+    for way in ((1, 0), (0, -1), (0, 1)):
+        session.set_pin(None)
+        session.nudge_pin(*way)
+        assert session.pin == (32, 24)
+
+
 def test_equal_values_emit_nothing(session: Session, qtbot: QtBot) -> None:
     session.set_pin((3, 4))
     with qtbot.assertNotEmitted(session.changed):
