@@ -23,13 +23,13 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QAbstractSlider, QSizePolicy, QToolTip, QWidget
 
 from widgets.basics.theme import current_theme, theme_notifier
-from widgets.timeline.run_picture import LANES, RunView, TimelineRun, flag_height, lane_height, ruler_height
+from widgets.timeline.run_picture import RunView, TimelineRun, flag_height, lane_height, ruler_height
 
 _SMALLEST_SPAN = 8.0
 _LARGEST_VALUE = 2**31 - 1
 """The last position that a slider can have."""
-LANES_AT_MOST = len(LANES)
-"""Most kinds of outcomes that one stage has."""
+LANES_AT_LEAST = 4
+"""Lanes that there is always room for; a stage with more takes more."""
 
 
 class TimelineBar(QAbstractSlider):
@@ -122,7 +122,8 @@ class TimelineBar(QAbstractSlider):
 
     def sizeHint(self) -> QSize:
         """Room for the flags, the lanes of any stage and the ruler: a step that begins a lane must move nothing."""
-        return QSize(400, flag_height() + lane_height() * LANES_AT_MOST + ruler_height())
+        lanes = max(LANES_AT_LEAST, len(self._run.lanes()))
+        return QSize(400, flag_height() + lane_height() * lanes + ruler_height())
 
     def minimumSizeHint(self) -> QSize:
         """As tall as wanted, but narrow."""

@@ -326,7 +326,9 @@ def test_an_interrupt_ends_with_130_and_without_a_word():
         assert process.stdout.readline() == b"{\n"
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
-        assert (process.returncode, errors) == (130, b"")
+        # Interrupted while it runs a text, as dataclasses do, Python ends by the signal: a shell says 130 of either.
+        assert process.returncode in (130, -signal.SIGINT)
+        assert errors == b""
 
 
 def test_a_program_without_a_console_ends_well(monkeypatch, tmp_path):
