@@ -5,7 +5,7 @@ It joins the depth buffer, ray casting and scan lines; picture, trace and histor
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,8 +29,9 @@ from core.scene import AnyScene
 from core.stages.fragments import fragments_at, owner_of
 from core.stages.geometry import Geometry
 from core.visibility.ray_casting import RayTests, run_ray_tests
-from core.visibility.scan_line import ScanLines, find_scan_lines
-from core.visibility.tree_walk import walk_rays
+
+if TYPE_CHECKING:
+    from core.visibility.scan_line import ScanLines
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +59,7 @@ def run_visibility_tests(
     raster: Raster,
     depth_format: DepthFormat,
     keeps_visits: bool = False,
-) -> tuple[DepthTests, RayTests | ScanLines | None]:
+) -> "tuple[DepthTests, RayTests | ScanLines | None]":
     """Decide of F fragments in drawing order which are kept, each against what is there before it.
 
     Parameters
@@ -86,6 +87,8 @@ def run_visibility_tests(
         return walk_to_nearest(geometry, triangle, (m, n), stored, stacks, start, keeps_visits)
     by_lines = resolve(geometry.settings).method("visibility").traits == "scan-lines"
     if by_lines and geometry.outlines is None:
+        from core.visibility.scan_line import find_scan_lines  # Only scan lines wait for it.
+
         # Lines have no spans: each of their pixels is compared for itself.
         pixel = raster.index(fragments.column, fragments.row)
         lines = find_scan_lines(
@@ -131,6 +134,8 @@ def walk_to_nearest(
 
     The other arguments are those of `run_visibility_tests`; ``triangle`` (F,) are numbers of the scene.
     """
+    from core.visibility.tree_walk import walk_rays  # Only rays in a tree wait for it.
+
     assert geometry.tree_rays is not None
     pixel = pixels_of(stacks)
     pixels, first = np.unique(pixel, return_index=True)

@@ -6,6 +6,7 @@ from functools import lru_cache
 import numpy as np
 
 from core.culling.object_culling import ObjectCulling, cull_objects, view_planes
+from core.methods import table
 from core.records.arrays import Floats, Integers
 from core.records.box_tree import BoxTree, Objects, checked_objects
 from core.resolved import resolve
@@ -55,7 +56,7 @@ def _grown(corners: Floats, mesh: Integers, rule: tuple[str, int, int], is_world
     """Return the tree over primitives of corners (T, C, 3)."""
     hierarchy, leaf_size, octree_depth = rule
     objects = checked_objects(corners.min(axis=1), corners.max(axis=1), mesh)
-    build = resolve(Settings(hierarchy=hierarchy)).method("hierarchy").function
+    build = table.get("hierarchy", hierarchy).function
     return ObjectTree(objects, build(objects, leaf_size, octree_depth), is_world)
 
 
