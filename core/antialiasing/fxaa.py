@@ -115,7 +115,7 @@ def smooth_edges(color: Singles) -> SmoothedPicture:
         [np.stack([wide[row + j, column + i] for i in range(3)], axis=1) for j in range(3)], axis=1
     )
     edges = _follow_edges(luma, row, column, around, contrast[row, column])
-    other = across_edges(edges, row, column, (height, width))
+    other = _across_edge(edges.side, edges.is_horizontal, row, column, (height, width))
     share = edges.offset[:, None]
     mixed = (1 - share) * shown[row, column] + share * shown[other]
     smoothed, is_moved = color.copy(), edges.offset > 0
@@ -133,12 +133,12 @@ def _linear_of(mixed: Floats) -> Singles:
     return np.concatenate([linear, mixed[:, 3:].astype(np.float32)], axis=1)
 
 
-def across_edges(
-    edges: EdgePixels, row: Integers, column: Integers, shape: tuple[int, int]
+def _across_edge(
+    side: Integers, is_horizontal: Flags, row: Integers, column: Integers, shape: tuple[int, int]
 ) -> tuple[Integers, Integers]:
     """Return row and column (E,) of the pixels on the other side of the edges at pixels (E,)."""
     height, width = shape
-    up, right = edges.side * edges.is_horizontal, edges.side * ~edges.is_horizontal
+    up, right = side * is_horizontal, side * ~is_horizontal
     return np.clip(row + up, 0, height - 1), np.clip(column + right, 0, width - 1)
 
 
@@ -161,8 +161,7 @@ def _follow_edges(
     walked = np.full((len(row), 2, MOST_STEPS), np.nan)
     distance = np.full((len(row), 2), MOST_STEPS)
     end = np.zeros((len(row), 2))
-    other_row = np.clip(row + side * is_horizontal, 0, height - 1)
-    other_column = np.clip(column + side * ~is_horizontal, 0, width - 1)
+    other_row, other_column = _across_edge(side, is_horizontal, row, column, luma.shape)
     for way, sign in enumerate((-1, 1)):
         going = np.arange(len(row))
         for k in range(1, MOST_STEPS + 1):
