@@ -15,10 +15,9 @@ from numpy.typing import NDArray
 from core.methods import is_registered
 from core.records.arrays import Floats, Integers, cached_property
 from core.records.listing import RETURN, Listing, Operation, listing
-from core.records.steps import Steps
 from core.stages.fragment_color import vertex_stage
 from core.trace.source import TraceSource
-from core.trace.stage_trace import StageTrace, empty_like, no_pixels
+from core.trace.stage_trace import InsertedRows, StageTrace, insert_rows
 from core.visibility.bsp import (
     CUT,
     BspTree,
@@ -123,33 +122,19 @@ def put_before(
     """
     count, steps = len(kind), found.steps
     ends = np.flatnonzero(np.diff(group, append=group[-1] + 1)) + 1
-    columns = {}
-    for name in {**rows, **found.columns}:
-        new, present = rows.get(name), found.columns.get(name)
-        new = empty_like(found.columns[name], count) if new is None else new
-        columns[name] = np.concatenate(
-            [new, empty_like(new, steps.row_count) if present is None else present]
-        )
 
     def after(there: Integers) -> Integers:
         return np.concatenate([ends, there[there > 0] + count])
 
-    return replace(
-        found,
-        steps=Steps(
-            kinds=(*steps.kinds, *operations),
-            kind=np.concatenate([kind + len(steps.kinds), steps.kind]),
-            operations={**steps.operations, **operations},
-            triangle_ends=after(steps.triangle_ends),
-            group_ends=after(steps.group_ends),
-        ),
-        columns=columns,
-        triangle=np.concatenate([triangle, found.triangle]),
-        pixel=np.concatenate([no_pixels(count), found.pixel]),
-        listings={**found.listings, **listings},
-        marks={name: np.concatenate([np.zeros(count, bool), flags]) for name, flags in found.marks.items()},
-        buffers=tuple(replace(track, rows=track.rows + count) for track in found.buffers),
+    first = np.zeros(count, np.int64)
+    inserted = InsertedRows(first, group, triangle, tuple(operations), kind, operations, rows, listings)
+    made = insert_rows(found, np.zeros(steps.row_count, np.int64), inserted)
+    # The rows that are there keep their own steps.
+    made_steps = replace(
+        made.steps, triangle_ends=after(steps.triangle_ends), group_ends=after(steps.group_ends)
     )
+    columns = {name: made.columns[name] for name in {**rows, **found.columns}}
+    return replace(made, steps=made_steps, columns=columns)
 
 
 def _joined(rows: list[dict[str, Any]], empty: dict[str, Any]) -> Columns:
