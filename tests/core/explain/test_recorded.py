@@ -1,6 +1,7 @@
 """What is said of steps, tables and pixels is what was recorded: other words are a difference that someone reads.
 
-From the top of the project, ``python -m tests.core.explain.test_recorded`` records all of it afresh.
+From the top of the project, ``python -m tests.core.explain.test_recorded`` records all of it afresh. Each kind of
+sentence stands in one section, the first that has it; what is new comes after all that was recorded, and changes none.
 """
 
 import re
@@ -38,11 +39,12 @@ from lessons.window_scenes import window_triangle
 from tests.core.explain.explained_steps import (
     ROWS,
     Step,
-    fewest_traces,
     line_trace,
+    places_in,
     places_of,
     rare_trace,
     step_at,
+    traces,
 )
 from tests.core.shaders.scenes import BRANCHES, square_scene, tutorial_scene
 from tests.core.strategies import clip_of_window
@@ -115,7 +117,7 @@ def stages() -> Iterator[tuple[str, StageTrace]]:
         for choice in choices:
             yield f"grid-ties {choice}", rare_trace("grid-ties", Settings(**choice)).stage(stage)
     for name in ("all-behind", "outside-left", "degenerate", "clockwise"):
-        yield name, rare_trace(name, Settings(cull="back")).stage("cull")
+        yield f"{name}, back faces culled", rare_trace(name, Settings(cull="back")).stage("cull")
     yield "clockwise", rare_trace("clockwise", Settings()).stage("cull")
     yield "through-eye", rare_trace("through-eye", Settings(clipping="sutherland-hodgman")).stage("clip")
     for line in table.names("line"):
@@ -332,16 +334,32 @@ def summaries() -> Iterator[str]:
     yield from map(initial_sentence, STAGES)
 
 
+def said_of_steps() -> Iterator[str]:
+    """Yield what is said of steps: of those that are made by hand, and of every other operation."""
+    by_hand = {f"{stage.stage.upper()}: {name}": stage for name, stage in stages()}
+    traced = {f"TRACE: {name}": each for group in traces().values() for name, each in group.items()}
+    keys = {
+        f"TRACE: {name}": {key for key, *_ in places}
+        for group in traces()
+        for name, places in places_in(group).items()
+    }
+    lines = RECORDED.read_text(encoding="utf-8").splitlines()
+    places = {line: place for place, line in enumerate(lines)}
+    said: set[tuple[str, str]] = set()
+    operations: set[str] = set()
+    for name in sorted([*by_hand, *traced], key=lambda name: places.get(name, len(lines))):
+        if name in by_hand:
+            yield f"\n{name}"
+            yield from said_of(steps_of_rows(by_hand[name]), said)
+        elif not keys[name] <= operations:
+            operations |= keys[name]
+            yield f"\n{name}"
+            yield from said_of(map(step_at, places_of(traced[name], ROWS)), said)
+
+
 def recorded() -> Iterator[str]:
     """Yield all of it."""
-    said: set[tuple[str, str]] = set()
-    for name, stage in stages():
-        yield f"\n{stage.stage.upper()}: {name}"
-        yield from said_of(steps_of_rows(stage), said)
-    yield "\nEVERY OTHER OPERATION"
-    yield from said_of(
-        (step_at(place) for traced in fewest_traces() for place in places_of(traced, ROWS)), said
-    )
+    yield from said_of_steps()
     yield from histories()
     yield from ("\nDEPTHS", *depths())
     yield from (f"\nTABLE {each}" for each in tables())
