@@ -195,12 +195,13 @@ NO_RULES = ("told", "traced", "measured")
 
 
 @cache
-def modules_in(package: str) -> tuple[str, ...]:
-    """Return the modules of rules that stand in a folder itself, by name: not those that tell, trace or measure."""
+def modules_in(package: str, kind: str = "") -> tuple[str, ...]:
+    """Return the modules of rules that stand in a folder itself, by name; or those of a ``kind`` of `NO_RULES`."""
     found = [
         module.name for module in pkgutil.iter_modules(import_module(package).__path__) if not module.ispkg
     ]
-    return tuple(sorted(f"{package}.{name}" for name in found if not name.startswith(NO_RULES)))
+    wanted = [name for name in found if (name.startswith(kind) if kind else not name.startswith(NO_RULES))]
+    return tuple(sorted(f"{package}.{name}" for name in wanted))
 
 
 table = MethodTable({})

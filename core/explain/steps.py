@@ -12,6 +12,7 @@ import numpy as np
 from core.explain.number_text import in_words, spoken, vector_text
 from core.explain.records import Asked, Formula, Value, Variable
 from core.explain.step_values import REMARKS, Row, StepValues, find_row, key_fields, row_key
+from core.methods import modules_in
 from core.records.listing import EditedListing, ShaderListing
 from core.records.words import capitalized, counted, joined
 from core.trace import Explanation, StageTrace
@@ -151,40 +152,19 @@ shows("resolve", PIXEL)
 # What a step says: its sentence, its formula, its variables, and what can be asked about the next one.
 
 
-SUBJECTS = (
-    *("transform.told", "culling.told", "trees.told", "culling.told_objects", "clipping.told"),
-    *(
-        "coverage.told_edges",
-        "coverage.told_binning",
-        "spans.told",
-        "coverage.told_fills",
-        "coverage.told_polygons",
-    ),
-    *("clipping.told_rings", "lines.told_clipping", "lines.told_setup", "lines.told", "lines.told_smooth"),
-    *(
-        "interpolation.told",
-        "interpolation.told_barycentric",
-        "textures.told",
-        "shading.told",
-        "shaders.told",
-    ),
-    *("depth.told", "depth.told_early", "visibility.told", "visibility.told_by_pixel"),
-    *(
-        "visibility.told_scan_line",
-        "visibility.told_order",
-        "visibility.told_tree",
-        "visibility.told_in_tree",
-    ),
-    *("framebuffer.told", "antialiasing.told", "antialiasing.told_fxaa"),
+TOPICS = (
+    *("transform", "trees", "culling", "clipping", "coverage", "spans", "lines", "interpolation", "textures"),
+    *("shading", "shaders", "depth", "visibility", "framebuffer", "antialiasing"),
 )
-"""What the topics say of their steps; the variables of a stage stand in their order."""
+"""Folders whose ``told`` files say what steps do; the variables of a stage stand in this order."""
 
 
 @cache
 def load_subjects() -> None:
-    """Import all subjects, which enter their rows and variables."""
-    for name in SUBJECTS:
-        import_module(f"core.{name}")
+    """Import all ``told`` files of the topics, which enter their rows and variables."""
+    for topic in TOPICS:
+        for name in modules_in(f"core.{topic}", "told"):
+            import_module(name)
 
 
 def row_of(key: str) -> Row | None:

@@ -11,7 +11,6 @@ import bootstrap
 CORE = tuple(
     path.parent.relative_to(bootstrap.ROOT).as_posix() for path in bootstrap.ROOT.glob("core/*/__init__.py")
 )
-TOLD = tuple(path.relative_to(bootstrap.ROOT).as_posix() for path in bootstrap.ROOT.glob("core/*/told*.py"))
 APP = (
     "cli",
     "bench",
@@ -49,7 +48,6 @@ FORBIDDEN = [
     ("app/views", "import app.pages"),
     ("app/pages", "import app.window"),
     ("app/window", "import app.cli"),
-    ("core/coverage", "from core.explain import step_values"),
 ]
 ALLOWED = [
     ("core", "import numpy"),
@@ -71,8 +69,6 @@ def check_layers(folder: Path, statements: list[tuple[str, str]]) -> "subprocess
         (folder / name / "__init__.py").touch()
     for name in (
         "core/pipeline.py",
-        "core/explain/step_values.py",
-        *TOLD,
         "app/module.py",
         "app/__main__.py",
         "app/usage.py",
