@@ -158,6 +158,13 @@ def intersecting() -> ClipScene:
     return ClipScene(np.stack([rising, falling]), colors, size)
 
 
+def crossing_glass() -> ClipScene:
+    """The same two as panes of glass that let half of the light through: neither order blends all pixels right."""
+    opaque = intersecting()
+    colors = np.asarray(opaque.attributes) * [1, 1, 1, 0.5]
+    return ClipScene(opaque.clip, colors, opaque.size)
+
+
 def four_layers() -> ClipScene:
     """Four layers over the whole picture, drawn from near to far: an early depth test shades the first one alone."""
     size = (32, 24)
@@ -282,6 +289,14 @@ CATALOGUE = (
         "Two triangles pass through each other, which only a test of each pixel's depth gets right.",
         intersecting,
         RunPlace("depth", "depth-failed"),
+    ),
+    BuiltInScene(
+        "crossing-glass",
+        "Crossing panes of glass",
+        "Two panes pass through each other: scan lines sort them in each segment and blend them from back to front.",
+        crossing_glass,
+        RunPlace("depth", "end", pixel=(30, 30)),
+        {"visibility": "scan-line", "blend": "over"},
     ),
     BuiltInScene(
         "circle-of-bars",

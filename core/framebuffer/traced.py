@@ -6,18 +6,19 @@ from core.depth.depth import stack_fragments
 from core.lines.wireframe_fragments import intensities_of, weigh_alpha, weighed_color
 from core.records.arrays import Floats
 from core.records.listing import Operation, listing
-from core.records.steps import Steps, ends_of
+from core.records.steps import ROW_BY_ROW, Steps, ends_of
 from core.resolved import resolve
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
+from core.visibility.scan_line import ScanLines
 
 
 def trace_blend(source: TraceSource) -> StageTrace:
-    """Return one row for every fragment that passed the depth test."""
-    passes = source.depth_tests.passes
-    fragments = source.fragments.select(passes)
-    place, triangle = source.place[passes], source.triangle_of_fragment[passes]
-    shaded = source.surface.color[passes]
+    """Return one row for every fragment that passed the depth test, in the order of drawing."""
+    chosen = source.drawn
+    fragments = source.fragments.take(chosen)
+    place, triangle = source.place[chosen], source.triangle_of_fragment[chosen]
+    shaded = source.surface.color[chosen]
     colors, intensity = weigh_alpha(shaded, fragments), intensities_of(fragments)
     method = resolve(source.settings).blend_method
     mode, rule = method.name, method.function
@@ -40,12 +41,14 @@ def trace_blend(source: TraceSource) -> StageTrace:
             *operations[mode],
         )
         listings = {name: listings[mode], f"{name}.weigh": listing(weighed_color)}
+    by_rows = isinstance(source.ray_tests, ScanLines) and source.ray_tests.segments.is_layered
+    ends = ends_of(triangle), ends_of(fragments.primitive, fragments.row)
+    if by_rows:
+        ends = ends_of(fragments.row), ends_of(fragments.row, triangle)
     return StageTrace(
         stage="blend",
         method=f"blend={mode}",
-        steps=Steps(
-            (name,), kind, operations, ends_of(triangle), ends_of(fragments.primitive, fragments.row)
-        ),
+        steps=Steps((name,), kind, operations, *ends),
         columns={
             "column": fragments.column,
             "row": fragments.row,
@@ -62,4 +65,5 @@ def trace_blend(source: TraceSource) -> StageTrace:
         buffers=(
             BufferTrack("color", source.start.color, np.arange(len(fragments)), place, after, "color", True),
         ),
+        order=ROW_BY_ROW if by_rows else None,
     )

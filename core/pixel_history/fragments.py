@@ -160,6 +160,14 @@ class PixelFragments:
     """The triangle that is seen, where all are told by it: row decided span by span, or a ray in a tree of boxes."""
     hidden_in: Integers | None = None
     """(F,) int64, the box of a tree that the ray has not opened around it, -1: it was compared; ``None``: no tree."""
+    turn: Integers | None = None
+    """(F,) int64, the fragments from back to front, where scan lines sort them; ``None``: in drawing order."""
+
+    @property
+    def in_turn(self) -> list[int]:
+        """The fragments in the order in which they reach the buffers."""
+        found: list[int] = (np.arange(len(self.primitive)) if self.turn is None else self.turn).tolist()
+        return found
 
 
 def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> PixelFragments:
@@ -190,6 +198,9 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
         signs = np.zeros(count, np.int64)
         signs[index] = rays.sign
     seen = int(rays.seen[0]) if isinstance(rays, ScanLines) and len(index) else None
+    turn = None
+    if isinstance(rays, ScanLines) and rays.segments.is_layered:
+        turn = np.concatenate([np.flatnonzero(~keeps), index[rays.drawn]])
     hidden_in = None
     if isinstance(rays, RayTests) and rays.walk is not None and signs is not None:
         walk, hidden_in = rays.walk, np.full(count, -1)
@@ -213,6 +224,7 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
         signs,
         seen,
         hidden_in,
+        turn,
     )
 
 
@@ -234,12 +246,12 @@ class Passage:
 
 
 def fold(fragments: PixelFragments, start: PixelState, candidates: PixelCandidates) -> list[Passage]:
-    """Lay the fragments into the buffers one by one."""
+    """Lay the fragments into the buffers one by one; return what became of each (F)."""
     rule = resolve(candidates.settings).blend_method.function
     tested = candidates.geometry.uses_depth_test
     state, below = start, -1
-    passages = []
-    for k in range(len(fragments.primitive)):
+    passages: dict[int, Passage] = {}
+    for k in fragments.in_turn:
         offered = fragments.source[k : k + 1]
         with np.errstate(over="ignore", invalid="ignore"):
             shown = read_only(offered[0].astype(np.float32))
@@ -252,11 +264,11 @@ def fold(fragments: PixelFragments, start: PixelState, candidates: PixelCandidat
         link = _depth_link(fragments, k, state.triangle, tested)
         if link.key == "not-tested" and below >= 0:
             link = _painted_link(candidates, link, int(fragments.primitive[k]), below)
-        passages.append(Passage(state, out, after, link, bool(fragments.passes[k])))
+        passages[k] = Passage(state, out, after, link, bool(fragments.passes[k]))
         if fragments.passes[k] and fragments.writes[k]:
             below = int(fragments.primitive[k])
         state = after
-    return passages
+    return [passages[k] for k in range(len(passages))]
 
 
 def _depth_link(fragments: PixelFragments, k: int, holder: int, tested: bool) -> Link:
@@ -285,7 +297,8 @@ def _depth_link(fragments: PixelFragments, k: int, holder: int, tested: bool) ->
             key = "ray-hidden" if values["node"] >= 0 else key
         elif fragments.seen is not None:
             key = {1: "scan-nearest", 0: "scan-tied", -1: "scan-farther"}[int(fragments.signs[k])]
-            values["against"] = fragments.seen
+            values["against"] = fragments.seen if fragments.turn is None else holder
+            key = key if fragments.turn is None else "scan-layer" if holder >= 0 else "scan-farthest"
     elif fragments.passes[k]:
         key = "passed"
     else:
@@ -307,11 +320,10 @@ def overwriters(fragments: PixelFragments, blend: str) -> list[int]:
     Opaque hides always, "over" hides what is below it where its alpha is 1, additive hides nothing.
     """
     hides = fragments.passes & blend_traits(blend).hides(fragments.source[:, 3])
-    found = []
-    for k in range(len(hides)):
-        later = np.flatnonzero(hides[k + 1 :])
-        is_hidden = fragments.passes[k] and len(later)
-        found.append(int(fragments.triangle[k + 1 + later[0]]) if is_hidden else -1)
+    found, hider = [-1] * len(hides), -1
+    for k in reversed(fragments.in_turn):
+        found[k] = hider if fragments.passes[k] else -1
+        hider = int(fragments.triangle[k]) if hides[k] else hider
     return found
 
 

@@ -265,6 +265,8 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
         f"in its segment of the row {_holder(v)} is nearer, compared exactly"
     ),
     ("depth", "scan-tied"): lambda v: f"exactly as near as {_holder(v)}, and a tie keeps what is drawn first",
+    ("depth", "scan-farthest"): "the farthest in its segment of the row, so it is drawn first",
+    ("depth", "scan-layer"): lambda v: f"drawn over {_holder(v)}, which is not nearer, compared exactly",
     ("depth", "painted-over"): _painted_over,
     ("depth", "ray-hidden"): lambda v: (
         f"hidden by the tree: the ray does not open node {v['node']}, missed, or behind another hit"

@@ -100,11 +100,20 @@ def run_visibility_tests(
             pixel,
             start.triangle,
             raster.center,
+            resolve(geometry.settings).is_mixed,
         )
-        return DepthTests(replay_depths(stored, stacks, start.depth, lines.passes), lines.passes), lines
+        turned = stack_in_turn(pixel, lines) if lines.segments.is_layered else stacks
+        return DepthTests(replay_depths(stored, turned, start.depth, lines.passes), lines.passes), lines
     rays = run_ray_tests(planes, triangle, m, n, stacks.layers(), start.triangle.take(stacks.pixel), writes)
     kept = rays.passes if writes is None else rays.passes & writes
     return DepthTests(replay_depths(stored, stacks, start.depth, kept), rays.passes), rays
+
+
+def stack_in_turn(pixel: Integers, lines: "ScanLines") -> PixelStacks:
+    """Stack fragments on their pixels (F,), those that scan lines draw behind the others in the order of drawing."""
+    turn = np.concatenate([np.flatnonzero(~lines.passes), lines.drawn])
+    stacks = stack_fragments(pixel.take(turn))
+    return replace(stacks, fragment=turn.take(stacks.fragment))
 
 
 def tests_early(scene: AnyScene, geometry: Geometry) -> bool:
@@ -227,5 +236,11 @@ def decide_fragments(
         fragments, stored = fragments.take(order), stored[order]
     stacks = stack_fragments(raster.index(fragments.column, fragments.row))
     start = cleared_buffers(raster.shape[0] * raster.shape[1], depth_format)
-    tests, _ = run_visibility_tests(geometry, fragments, stored, stacks, start, raster, depth_format)
+    tests, rays = run_visibility_tests(geometry, fragments, stored, stacks, start, raster, depth_format)
+    drawn = getattr(rays, "drawn", None)
+    if drawn is not None:
+        # Scan lines draw in an order of their own.
+        fragments, stored = fragments.take(drawn), stored[drawn]
+        stacks = stack_fragments(raster.index(fragments.column, fragments.row))
+        return DecidedFragments(fragments, stored, stacks, np.ones(len(drawn), bool))
     return DecidedFragments(fragments, stored, stacks, tests.passes, tests.left)

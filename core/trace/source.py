@@ -239,6 +239,13 @@ class TraceSource:
         return DepthTests(before, passes, left)
 
     @property
+    def drawn(self) -> Integers:
+        """(D,) int64, the fragments that pass, in the order in which they are drawn."""
+        if isinstance(self.ray_tests, ScanLines) and self.ray_tests.segments.is_layered:
+            return np.flatnonzero(self.depths[1])[self.ray_tests.drawn]
+        return np.flatnonzero(self.depth_tests.passes)
+
+    @property
     def is_tested_alone(self) -> bool:
         """Whether each fragment has one depth test of its own, not one for each sample."""
         return True

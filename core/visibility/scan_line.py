@@ -6,6 +6,10 @@ first and at the last centre of the segment, exactly, as ray casting does. The n
 row: what is nearest at both centres, with ties for the triangle drawn first, is nearest at all between. Otherwise the
 segment is halved.
 
+Where fragments are mixed with what is there (``blend`` over or additive), all live triangles are drawn, from back to
+front: the active list is sorted by depth at both centres, and a segment with the same order at both is drawn layer by
+layer. Of two equally near triangles the one drawn first lies on top.
+
 No depth buffer of the picture is needed: row after row, a program holds the spans of one row.
 
 References
@@ -18,6 +22,7 @@ I. Sutherland, R. Sproull, R. Schumacker, *A characterization of ten hidden-surf
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -73,8 +78,13 @@ class Segments:
     """(G + 1,) int64, where the live spans of each begin in ``live``, and L."""
     live: Integers
     """(L,) int64, spans that are live in the segments, in drawing order."""
+    compared: Integers
+    """(L, 2) int64, the same at the first and at the last centre as they are compared there: in drawing order, or
+    sorted from back to front where ``is_layered``."""
     tests: tuple[RayTests, RayTests]
-    """(L,) each: every live span at the first and at the last centre against the nearest before it in the list."""
+    """(L,) each: every span in ``compared`` against the nearest before it, or the one behind it, -1: none."""
+    is_layered: bool = False
+    """Whether all that is live is drawn, from back to front."""
 
     def __len__(self) -> int:
         return len(self.row)
@@ -102,8 +112,10 @@ class ScanLines:
 
     spans: Spans
     segments: Segments
+    drawn: Integers
+    """(D,) int64, the fragments that are drawn, segment by segment, in each layer by layer from back to front."""
     passes: Flags
-    """(F,) bool, the nearest at its pixel: one of a pixel, or none where the picture before stays."""
+    """(F,) bool, drawn: the nearest at its pixel alone, or every layer before what is there already."""
     seen: Integers
     """(F,) int64, number of the triangle that is seen at the fragment's pixel."""
     planes: RayPlanes
@@ -130,8 +142,9 @@ def find_scan_lines(
     pixel: Integers,
     initial: Integers,
     center: float,
+    is_layered: bool = False,
 ) -> ScanLines:
-    """Decide of F fragments in drawing order which is seen at every pixel.
+    """Decide of F fragments in drawing order which is seen at every pixel, and which are drawn.
 
     Parameters
     ----------
@@ -144,25 +157,48 @@ def find_scan_lines(
         The triangle that is seen at pixels before, -1: none.
     center : float
         Where in a pixel its centre lies: 0 or 1/2.
+    is_layered : bool
+        Whether all that is live is drawn, from back to front, for it may show what is behind it.
     """
     spans = find_spans(triangle, primitive, column, row, pixel, initial)
-    segments = find_segments(spans, planes, center)
+    segments = find_segments(spans, planes, center, is_layered)
 
     # The pixels of segments that are decided: each end has half of a pair, the whole of any other.
     done = np.flatnonzero(segments.verdict != HALVED)
     is_pair = segments.verdict[done] == PAIR
     middle = np.where(is_pair, segments.left[done] + 1, segments.right[done])
-    left = np.stack([segments.left[done], middle], axis=1)
-    right = np.stack([middle, segments.right[done]], axis=1)
-    part, place = expand((right - left).ravel())
-    span = segments.nearest[done].ravel()[part]
-    seen = spans.fragment[spans.bottom[span] + left.ravel()[part] + place - spans.left[span]]
+    left = np.stack([segments.left[done], middle], axis=1).ravel()
+    right = np.stack([middle, segments.right[done]], axis=1).ravel()
+    half, span = _layers_of(spans, segments, done)
+    layer, place = expand((right - left)[half])
+    half, span = half[layer], span[layer]
+    drawn = spans.fragment[spans.bottom[span] + left[half] + place - spans.left[span]]
+    drawn = drawn[drawn >= 0]
     passes = np.zeros(len(triangle), bool)
-    passes[seen[seen >= 0]] = True
+    passes[drawn] = True
+    # Of several layers of a pixel, the last one's number stays.
     there = initial.copy()
-    there[pixel[passes]] = triangle[passes]
+    there[pixel[drawn]] = triangle[drawn]
     m, n = planes.rays(column, row, center)
-    return ScanLines(spans, segments, passes, there.take(pixel), planes, triangle, m, n)
+    return ScanLines(spans, segments, drawn, passes, there.take(pixel), planes, triangle, m, n)
+
+
+def _layers_of(spans: Spans, segments: Segments, done: Integers) -> tuple[Integers, Integers]:
+    """Return what is drawn in both halves of segments ``done`` (N,): 2 i or 2 i + 1, and the span, from back to front.
+
+    Of layers, none that lies behind the picture before: that is blended already.
+    """
+    if not segments.is_layered:
+        return np.arange(2 * len(done)), segments.nearest[done].ravel()
+    count = segments.live_count[done]
+    half, place = expand(np.repeat(count, 2))
+    slot = segments.live_start[done[half // 2]] + place
+    span = segments.compared[slot, half % 2]
+    held = np.full(2 * len(done), -1)
+    is_held = spans.primitive[span] < 0
+    held[half[is_held]] = place[is_held]
+    is_drawn = place > held[half]
+    return half[is_drawn], span[is_drawn]
 
 
 def find_spans(
@@ -201,21 +237,32 @@ def find_spans(
     )
 
 
-def find_segments(spans: Spans, planes: RayPlanes, center: float) -> Segments:
-    """Return the segments between the ends of spans (S,), halved until one span is nearest at both ends."""
+def find_segments(spans: Spans, planes: RayPlanes, center: float, is_layered: bool = False) -> Segments:
+    """Return the segments between the ends of spans (S,), halved until both ends show the same.
+
+    That is the nearest span; where ``is_layered``, the order of all live ones.
+    """
     row, left, right, live_start, live = _between_ends(spans)
     depth = np.zeros(len(row), np.int64)
     found: list[tuple[Integers, ...]] = []
-    of_live: list[tuple[Integers, ...]] = []
+    of_live: list[tuple[Any, ...]] = []
     while len(row):
         count = np.diff(live_start)
         which = np.repeat(np.arange(len(row)), count)
-        nearest, tests = _nearest_at_ends(spans, planes, center, row, left, right, which, live)
+        find = _layers_at if is_layered else _nearest_at
+        at_ends = [
+            find(planes, spans.triangle[live], *planes.rays(column[which], row[which], center), which)
+            for column in (left, right - 1)
+        ]
+        compared = live[np.stack([end.turn for end in at_ends], axis=1)]
+        nearest = live[np.stack([end.nearest for end in at_ends], axis=1)]
         is_same = nearest[:, 0] == nearest[:, 1]
+        if is_layered:
+            is_same = np.logical_and.reduceat(compared[:, 0] == compared[:, 1], live_start[:-1])
         verdict = np.where(is_same, SAME, np.where(right - left == 2, PAIR, HALVED))
         verdict[count == 1] = ALONE
         found.append((row, left, right, depth, verdict, nearest, count))
-        of_live.append((live, *tests))
+        of_live.append((live, compared, *at_ends))
 
         # Both halves have the same live spans.
         half = np.flatnonzero(verdict == HALVED)
@@ -227,7 +274,7 @@ def find_segments(spans: Spans, planes: RayPlanes, center: float) -> Segments:
         part, place = expand(np.repeat(count[half], 2))
         live = live[np.repeat(live_start[:-1][half], 2)[part] + place]
         live_start = np.concatenate([[0], np.cumsum(np.repeat(count[half], 2))])
-    return _in_order(found, of_live)
+    return _in_order(found, of_live, is_layered)
 
 
 def _between_ends(spans: Spans) -> tuple[Integers, ...]:
@@ -246,52 +293,75 @@ def _between_ends(spans: Spans) -> tuple[Integers, ...]:
     return row, left, ends[chosen + 1] - row * width, np.append(begins, len(live)), live
 
 
-def _nearest_at_ends(
-    spans: Spans,
-    planes: RayPlanes,
-    center: float,
-    row: Integers,
-    left: Integers,
-    right: Integers,
-    which: Integers,
-    live: Integers,
-) -> tuple[Integers, tuple[Integers, ...]]:
-    """Return the nearest (G, 2) of the live spans (L,) of segments, and before, sign and how (L, 2) of each span."""
-    triangle = spans.triangle[live]
-    nearest = np.empty((len(row), 2), np.int64)
-    numbers = np.empty((3, len(live), 2), np.int64)
-    stacks = stack_fragments(which)
-    nothing = np.full(len(row), -1)
-    for end, column in enumerate((left, right - 1)):
-        m, n = planes.rays(column[which], row[which], center)
-        tests = run_ray_tests(planes, triangle, m, n, stacks.layers(), nothing)
-        # Of those that were nearer than all before, the last.
-        passing = np.flatnonzero(tests.passes)
-        nearest[which[passing], end] = live[passing]
-        numbers[:, :, end] = tests.before, tests.sign, tests.how
-    return nearest, tuple(numbers)
+@dataclass(frozen=True, eq=False)
+class _End:
+    """What is found at one centre of each of G segments with L live triangles."""
+
+    turn: Integers
+    """(L,) int64, which of them are compared, one after another."""
+    tests: RayTests
+    """(L,) of these."""
+    nearest: Integers
+    """(G,) int64, which of them is."""
 
 
-def _in_order(found: Sequence[tuple[Integers, ...]], of_live: Sequence[tuple[Integers, ...]]) -> Segments:
+def _nearest_at(planes: RayPlanes, triangle: Integers, m: Floats, n: Floats, which: Integers) -> _End:
+    """Compare live triangles (L,) of segments ``which`` (L,) at their rays with the nearest of those before."""
+    count = int(which[-1]) + 1
+    tests = run_ray_tests(planes, triangle, m, n, stack_fragments(which).layers(), np.full(count, -1))
+    # Of those that were nearer than all before, the last.
+    passing = np.flatnonzero(tests.passes)
+    nearest = np.empty(count, np.int64)
+    nearest[which[passing]] = passing
+    return _End(np.arange(len(triangle)), tests, nearest)
+
+
+def _layers_at(planes: RayPlanes, triangle: Integers, m: Floats, n: Floats, which: Integers) -> _End:
+    """Sort the same from back to front: by float64, then neighbours in the wrong order are exchanged, exactly."""
+    value, _ = planes.values(triangle, m, n)
+    turn = np.lexsort((-np.arange(len(triangle)), value, which))
+    is_first = np.diff(which, prepend=-1) != 0
+    odd = 0
+    while True:
+        behind = np.where(is_first, -1, triangle[np.roll(turn, 1)])
+        sign, how = compare_hits(planes, triangle[turn], behind, m[turn], n[turn])
+        later = turn > np.roll(turn, 1)
+        wrong = np.flatnonzero(~is_first & ((sign < 0) | ((sign == 0) & later)))
+        if not len(wrong):
+            break
+        chosen = wrong[wrong % 2 == odd]
+        turn[chosen], turn[chosen - 1] = turn[chosen - 1], turn[chosen]
+        odd = 1 - odd
+    is_last = np.diff(which, append=int(which[-1]) + 1) != 0
+    return _End(turn, RayTests(behind, sign > 0, how, sign), turn[is_last])
+
+
+def _in_order(
+    found: Sequence[tuple[Integers, ...]], of_live: Sequence[tuple[Any, ...]], is_layered: bool
+) -> Segments:
     """Return all segments row by row from left to right, each before its halves."""
     if not found:
-        nothing = np.empty(0, np.int64)
-        no_tests = RayTests(nothing, nothing > 0, nothing, nothing)
-        none = np.empty((0, 2), np.int64)
-        start = np.zeros(1, np.int64)
-        return Segments(
-            nothing, nothing, nothing, nothing, nothing, none, start, nothing, (no_tests, no_tests)
-        )
+        nothing, none = np.empty(0, np.int64), np.empty((0, 2), np.int64)
+        tests = RayTests(nothing, nothing > 0, nothing, nothing)
+        of_none = nothing, nothing, nothing, nothing, nothing, none, np.zeros(1, np.int64), nothing, none
+        return Segments(*of_none, (tests, tests), is_layered)
     row, left, right, depth, verdict, nearest, count = (
         np.concatenate(parts) for parts in zip(*found, strict=True)
     )
-    live, before, sign, how = (np.concatenate(parts) for parts in zip(*of_live, strict=True))
     order = np.lexsort((-right, left, row))
     starts = np.cumsum(count) - count
     part, place = expand(count[order])
     pair = starts[order][part] + place
-    before, sign, how = before[pair], sign[pair], how[pair]
-    tests = [RayTests(before[:, end], sign[:, end] > 0, how[:, end], sign[:, end]) for end in (0, 1)]
+    live, compared, *ends = zip(*of_live, strict=True)
+    first, last = (
+        RayTests(
+            *(
+                np.concatenate([getattr(end.tests, name) for end in of_end])[pair]
+                for name in ("before", "passes", "how", "sign")
+            )
+        )
+        for of_end in ends
+    )
     return Segments(
         row[order],
         left[order],
@@ -300,17 +370,22 @@ def _in_order(found: Sequence[tuple[Integers, ...]], of_live: Sequence[tuple[Int
         verdict[order],
         nearest[order],
         np.concatenate([[0], np.cumsum(count[order])]),
-        live[pair],
-        (tests[0], tests[1]),
+        np.concatenate(live)[pair],
+        np.concatenate(compared)[pair],
+        (first, last),
+        is_layered,
     )
 
 
 def draw_rows(
     spans: Mapping[int, Mapping[int, tuple[int, int]]],
     rows: range,
-    nearest: Callable[[list[int], int, int], int],
+    shown: Callable[[list[int], int, int], list[int]],
 ) -> list[tuple[int, int, int, int]]:
-    """Listing of the method: triangle to its rows' spans; ``nearest`` of some triangles at column and row, exactly."""
+    """Listing of the method: triangle to its rows' spans; ``shown`` of some triangles at column and row, exactly.
+
+    That is the nearest alone, or all from back to front where they are blended.
+    """
     table: dict[int, list[int]] = {}
     for t in spans:
         table.setdefault(min(spans[t]), []).append(t)
@@ -330,12 +405,13 @@ def draw_rows(
             if len(live) == 1:
                 drawn.append((row, left, right, live[0]))  #: alone
                 continue
-            first = nearest(live, left, row)  #: first
-            last = first if right - left == 1 else nearest(live, right - 1, row)  #: last
+            first = shown(live, left, row)  #: first
+            last = first if right - left == 1 else shown(live, right - 1, row)  #: last
             if first == last:
-                drawn.append((row, left, right, first))  #: same
+                drawn += [(row, left, right, t) for t in first]  #: same
             elif right - left == 2:
-                drawn += [(row, left, left + 1, first), (row, left + 1, right, last)]  #: pair
+                halves = (left, left + 1, first), (left + 1, right, last)
+                drawn += [(row, begin, end, t) for begin, end, order in halves for t in order]  #: pair
             else:
                 middle = (left + right) // 2  #: halve
                 parts += [(middle, right), (left, middle)]
@@ -350,11 +426,11 @@ def draw_rows(
     "scan-line",
     "Scan line",
     source="Wylie, Romney, Evans and Erdahl 1967; Watkins 1970; Pellacini, hidden surface removal: scan-line",
-    exact_for="opaque triangles in any order, crossing ones too: depths are compared exactly where spans begin and end",
-    breaks_where="blended triangles: only the nearest surface of a pixel is drawn, so nothing shows through it",
+    exact_for="opaque and blended triangles in any order, crossing ones too: exact depths where spans begin and end",
+    breaks_where="blended triangles and exact areas: pieces of pixels are not sorted",
     listing=draw_rows,
     traits="scan-lines",
 )
 def scan_line(clip: Floats) -> DrawingOrder:
-    """Take the triangles as given; of each pixel the nearest alone is kept."""
+    """Take the triangles as given; of each pixel the nearest alone is kept, or all from back to front where blended."""
     return DrawingOrder(np.arange(len(clip)), True, casts_rays=True)

@@ -18,7 +18,9 @@ from core.trace import StageTrace
 from core.visibility.told import NEAREST, NEW, doubted, measure, nearer
 
 _VERDICTS = "scan-same|scan-pair|scan-halve"
+_LAYERED = "layers-same|layers-pair|layers-halve"
 _ENDS = "end-first|end|end-exact"
+_LAYERS = "layer-first|layer|layer-exact"
 
 
 def _row(step: StepValues) -> str:
@@ -113,7 +115,37 @@ def first_live(step: StepValues) -> Said:
     )
 
 
-explains("depth.end-exact.doubt")(doubted)
+explains("depth.end-exact|layer-exact.doubt")(doubted)
+
+
+@explains("depth.layer-first.keep")
+def farthest(step: StepValues) -> Said:
+    """The first of the live surfaces from the back."""
+    return f"{step.pixel_name}: sorted from back to front at {_end(step)} of the segment, {step.name} comes first."
+
+
+@explains("depth.layer.compare")
+def sorted_by_floats(step: StepValues) -> Said:
+    """A surface in the sorted list that float64 tells from the one behind it."""
+    new, old = step.number("nearness"), step.number("nearest_nearness")
+    shown, shown_old = pair_text(new, old)
+    text = (
+        f"{step.pixel_name}: at {_end(step)} the next is {step.name}, as its {measure(step)}, {shown}, is larger than "
+        f"the {shown_old} of {step.named_primitive(step.whole('nearest'))} behind it."
+    )
+    return text, formula_of(concludes("nearer", "nearer", named(NEW, new).compared(">", named(NEAREST, old))))
+
+
+@explains("depth.layer-exact.exact")
+def sorted_exactly(step: StepValues) -> Said:
+    """A surface in the sorted list that whole numbers tell from the one behind it."""
+    sign, behind = step.whole("sign"), step.named_primitive(step.whole("nearest"))
+    found = "nearer" if sign > 0 else "equally near"
+    text = f"in whole numbers, without any error, {step.name} is nearer than {behind}, so it is the next."
+    if sign == 0:
+        text = f"in whole numbers {step.name} is exactly as near as {behind}, and what is drawn first lies on top."
+    side = named(rf"\mathrm{{sign}}({NEW} - {NEAREST})", sign)
+    return f"{step.pixel_name}: {text}", formula_of(concludes("nearer", found, side.compared(">")))
 
 
 @explains("depth.end.compare", asks=nearer, decides=True)
@@ -205,6 +237,93 @@ def halves(step: StepValues) -> Said:
     return text, formula_of(middle.equals(call("floor", (left + right) / 2)))
 
 
+def _placed(step: StepValues, name: str, centre: str) -> str:
+    """Return which surface has the place that is told of, at one centre."""
+    place, who = step.whole("from_front"), step.named_primitive(step.whole(name))
+    if place == 1:
+        return f"{_segment(step)}: {who} is in front at the {centre} centre."
+    return f"{_segment(step)}: {who} is number {place} from the front at the {centre} centre."
+
+
+@explains(f"depth.{_LAYERED}.first")
+def order_first(step: StepValues) -> Said:
+    """The order where the segment begins."""
+    return _placed(step, "first", "first")
+
+
+@explains(f"depth.{_LAYERED}.last")
+def order_last(step: StepValues) -> Said:
+    """The order where the segment ends."""
+    if step.whole("right") - step.whole("left") == 1:
+        return nearest_last(step)
+    return _placed(step, "last", "last")
+
+
+def same_order(step: StepValues) -> Asked:
+    """Ask whether a segment is decided by the order at its ends."""
+    first, last = (step.named_primitive(step.whole(name)) for name in ("first", "last"))
+    length = step.whole("right") - step.whole("left")
+    place = "In front" if step.whole("from_front") == 1 else f"As number {step.whole('place')} from the front"
+    is_decided = first == last or length == 2
+    reveal = "It is halved: the order changes somewhere between its ends."
+    if first == last:
+        reveal = "It is decided: the order is the same at both ends, so it is the same between them."
+    elif length == 2:
+        reveal = "It is decided: it has two pixels, and each end is one of them."
+    at_ends = f"{first} at both ends, as everywhere in the order" if first == last else f"{first} and {last}"
+    return choice(
+        f"{place} {columns_text(step.whole('left'), step.whole('right'))} has {at_ends}. Is the segment decided?",
+        0 if is_decided else 1,
+        reveal,
+    )
+
+
+def _drawn(step: StepValues) -> str:
+    """Return what is drawn of a segment whose order is known."""
+    if step.flag("over_picture"):
+        return (
+            "what lies in front of the picture before is drawn over it, and what lies behind it is left out"
+        )
+    return f"its {step.whole('live_count')} {step.nouns.many} are drawn from back to front"
+
+
+@explains("depth.layers-same.same", asks=same_order, decides=True)
+def same_layers(step: StepValues) -> Said:
+    """A segment whose ends show the same order."""
+    drawn = _drawn(step)
+    if step.whole("right") - step.whole("left") == 1:
+        return f"{_segment(step)}: {drawn}."
+    return (
+        f"{_segment(step)}: the order is the same at both ends, and as the nearness of every plane is linear along a "
+        f"row, it is the same between them: {drawn}."
+    )
+
+
+@explains("depth.layers-pair.pair", asks=same_order, decides=True)
+def pair_of_layers(step: StepValues) -> Said:
+    """Two pixels with an order each."""
+    return f"{_segment(step)}: the segment has two pixels with an order each: {_drawn(step)}."
+
+
+@explains("depth.layers-halve.halve", asks=same_order, decides=True)
+def halves_layers(step: StepValues) -> Said:
+    """A segment that is halved as the order changes."""
+    left, right, middle = (step.named(name, upright(name)) for name in ("left", "right", "middle"))
+    text = (
+        f"{_segment(step)}: the orders at its ends differ, so two {step.nouns.many} change places in between, and it "
+        f"is halved at column {step.whole('middle')}."
+    )
+    return text, formula_of(middle.equals(call("floor", (left + right) / 2)))
+
+
+@explains("depth.layer-pixel.draw")
+def draws_layer(step: StepValues) -> Said:
+    """A pixel of a layer of a segment."""
+    columns, below = columns_text(step.whole("left"), step.whole("right")), step.whole("layer")
+    over = f"over the {counted(below, 'layer')} behind it" if below else "as the farthest layer"
+    return f"{step.pixel_name}: {step.name} is drawn {over}; the segment has {columns}."
+
+
 @explains("depth.scan-pixel.draw")
 def draws(step: StepValues) -> Said:
     """A pixel of a segment."""
@@ -230,6 +349,8 @@ shows(
         "first": VariableText("first", "The nearest triangle at the first centre."),
         "last": VariableText("last", "The nearest triangle at the last centre."),
         "middle": VariableText("middle", "First column of the right half."),
+        "from_front": VariableText("from front", "Place in the order, counted from the front."),
+        "layer": VariableText("layer", "Layers of the pixel that are drawn already."),
         "seen": VariableText("seen", "The triangle that the segment shows, or its left pixel."),
     },
 )
@@ -242,13 +363,17 @@ shows(
     },
 )
 shows(
-    f"depth.{_VERDICTS}",
+    f"depth.{_LAYERS}",
+    {"passes": VariableText("nearer", "Whether the triangle is nearer than the one behind it in the order.")},
+)
+shows(
+    f"depth.{_VERDICTS}|{_LAYERED}",
     {"passes": VariableText("decided", "Whether the segment is drawn, and not halved.")},
 )
 _OF_SEGMENTS = ("left", "right", "halvings")
 hides("depth.scan-enter|scan-leave|scan-sort|out-of-range|discarded", _OF_SEGMENTS)
-hides("depth.scan-span|scan-pixel", ("halvings",))
-hides("depth.scan-pixel", "mnabcd")
+hides("depth.scan-span|scan-pixel|layer-pixel", ("halvings",))
+hides("depth.scan-pixel|layer-pixel", "mnabcd")
 
 
 _ACTIVE = (

@@ -38,6 +38,7 @@ def _drawn_by(columns: Columns, rows: Any) -> NDArray[np.str_]:
     return found
 
 
+_DRAW = Operation("draw", _drawn_by, {"passes": "drawn"}, ("depth", "stored", "before", "after"))
 SCAN_OPERATIONS: dict[str, tuple[Operation, ...]] = {
     "scan-enter": (Operation("enter", "enter", (), ("row_first", "row_last")),),
     "scan-span": (Operation("span", "span", {"left": "here", "right": "here"}, ("slope",)),),
@@ -51,20 +52,32 @@ SCAN_OPERATIONS: dict[str, tuple[Operation, ...]] = {
         Operation("doubt", "margin", (), _OTHER),
         Operation("exact", "exact", {"passes": RETURN}, ("sign",)),
     ),
+    "layer-first": (*_HIT, Operation("keep", "first", {"passes": RETURN})),
+    "layer": (*_HIT, Operation("compare", "floats", {"passes": RETURN}, (*_OTHER, "sign"))),
+    "layer-exact": (
+        *_HIT,
+        Operation("doubt", "margin", (), _OTHER),
+        Operation("exact", "exact", {"passes": RETURN}, ("sign",)),
+    ),
     "scan-same": (*_ENDS, Operation("same", "same", {"seen": "drawn"})),
     "scan-pair": (*_ENDS, Operation("pair", "pair", {"seen": "drawn"})),
     "scan-halve": (*_ENDS, Operation("halve", "halve", {"middle": "middle"})),
-    "scan-pixel": (
-        Operation("draw", _drawn_by, {"passes": "drawn"}, ("depth", "stored", "before", "after")),
-    ),
+    "layers-same": (*_ENDS, Operation("same", "same", {"seen": "drawn"})),
+    "layers-pair": (*_ENDS, Operation("pair", "pair", {"seen": "drawn"})),
+    "layers-halve": (*_ENDS, Operation("halve", "halve", {"middle": "middle"})),
+    "scan-pixel": (_DRAW,),
+    "layer-pixel": (_DRAW,),
     "scan-leave": (Operation("leave", "leave", (), ("row_last",)),),
     "out-of-range": (Operation("range", "range", {"passes": RETURN}, ("depth",)),),
     "discarded": (Operation("discard", "", (), ("passes",)),),
 }
-"""Kind of row to what it does: ``end`` kinds compare one live triangle at one centre of a segment."""
+"""Kind of row to what it does: ``end`` kinds compare one live triangle at one centre of a segment with the nearest so
+far, ``layer`` kinds with the one behind it."""
 KINDS = tuple(SCAN_OPERATIONS)
-_OF_HOW = {FIRST: "end-first", BY_FLOATS: "end", EXACTLY: "end-exact"}
-_OF_VERDICT = {ALONE: "scan-alone", SAME: "scan-same", PAIR: "scan-pair", HALVED: "scan-halve"}
+_HOW = {FIRST: "-first", BY_FLOATS: "", EXACTLY: "-exact"}
+_VERDICTS = {SAME: "same", PAIR: "pair", HALVED: "halve"}
+_COMPARED = tuple(f"{kind}{how}" for kind in ("end", "layer") for how in _HOW.values())
+_PIXEL_KINDS = [KINDS.index("scan-pixel"), KINDS.index("layer-pixel")]
 _RANGE, _ENTER, _SPAN, _SORT, _SEGMENT, _LEAVE = range(6)
 """What comes after what in a row."""
 _HEAD, _FIRST_END, _LAST_END, _VERDICT, _PIXELS = range(5)
@@ -258,8 +271,16 @@ def _segments(source: TraceSource, lines: ScanLines) -> list[_Rows]:
     kinds = np.where(is_alone, KINDS.index("scan-alone"), KINDS.index("scan-live"))
     head = rows(kinds, number, _HEAD, np.where(is_alone, first, nothing), seen=np.where(is_alone, first, -1))
     verdicts = np.flatnonzero(~is_alone)
-    of_verdict = np.array([KINDS.index(_OF_VERDICT[verdict]) for verdict in (ALONE, SAME, PAIR, HALVED)])
+    prefix = "layers" if segments.is_layered else "scan"
+    of_verdict = np.full(max(_VERDICTS) + 1, -1)
+    of_verdict[list(_VERDICTS)] = [KINDS.index(f"{prefix}-{name}") for name in _VERDICTS.values()]
     is_halved = segments.verdict == HALVED
+    if segments.is_layered:
+        first, last, from_front = _told_places(lines)
+        of["from_front"] = from_front
+        of["over_picture"] = np.logical_or.reduceat(
+            spans.primitive[segments.live] < 0, segments.live_start[:-1]
+        )
     decided = rows(
         of_verdict[segments.verdict[verdicts]],
         verdicts,
@@ -273,12 +294,14 @@ def _segments(source: TraceSource, lines: ScanLines) -> list[_Rows]:
     )
     found = [head, decided]
     which, turn = expand(count)
+    prefix = "layer" if segments.is_layered else "end"
+    kinds = np.array([KINDS.index(f"{prefix}{_HOW[how]}") for how in sorted(_HOW)])
     for end in (0, 1):
         chosen = np.flatnonzero(segments.compared_ends[which] > end)
-        part, live = which[chosen], segments.live[chosen]
+        part, live = which[chosen], segments.compared[chosen, end]
         tests = segments.tests[end]
         column = segments.left[part] if end == 0 else segments.right[part] - 1
-        kind = np.array([KINDS.index(_OF_HOW[how]) for how in sorted(_OF_HOW)])[tests.how[chosen]]
+        kind = kinds[tests.how[chosen]]
         of_end = _comparisons(source, lines, live, tests.before[chosen], column, segments.row[part])
         of_end |= {
             "sign": tests.sign[chosen],
@@ -290,6 +313,22 @@ def _segments(source: TraceSource, lines: ScanLines) -> list[_Rows]:
         triangle = spans.triangle[live]
         found.append(rows(kind, part, place, triangle, column=column, turn=turn[chosen], **of_end))
     return found
+
+
+def _told_places(lines: ScanLines) -> tuple[Integers, Integers, Integers]:
+    """Return of sorted segments (G,) the triangles at both centres in one place of the order, and its number.
+
+    Places are counted from the front, from 1 on: the first in which the centres differ, or else the first of all.
+    """
+    segments = lines.segments
+    differs = segments.compared[:, 0] != segments.compared[:, 1]
+    # The last slot of each segment is the front.
+    slot = np.where(differs, np.arange(len(differs)), -1)
+    found = np.maximum.reduceat(slot, segments.live_start[:-1]) if len(segments) else slot
+    front = segments.live_start[1:] - 1
+    told = np.where(found < 0, front, found)
+    first, last = lines.spans.triangle[segments.compared[told]].T
+    return first, last, front - told + 1
 
 
 def _comparisons(
@@ -316,7 +355,7 @@ def _pixels(source: TraceSource, lines: ScanLines) -> _Rows:
     """Return the pixels that are drawn; their depth is kept for views of the picture, and compared with nothing."""
     segments = lines.segments
     depth, keeps, stored = source.depths
-    fragment = np.flatnonzero(keeps)[lines.passes]
+    fragment = np.flatnonzero(keeps)[lines.drawn]
     row, column = source.fragments.row[fragment], source.fragments.column[fragment]
     done = np.flatnonzero(segments.verdict != HALVED)
     key = segments.row[done] * (int(segments.right.max(initial=0)) + 1)
@@ -327,31 +366,39 @@ def _pixels(source: TraceSource, lines: ScanLines) -> _Rows:
         - 1
     )
     part = done[at]
+    # How many layers of the pixel are drawn before, and have stored their depths.
+    order = np.argsort(source.place[fragment], kind="stable")
+    layer = np.empty(len(order), np.int64)
+    layer[order] = np.arange(len(order)) - np.searchsorted(
+        source.place[fragment][order], source.place[fragment][order]
+    )
+    kind = "layer-pixel" if segments.is_layered else "scan-pixel"
     return _Rows(
-        _numbers("scan-pixel", len(fragment)),
+        _numbers(kind, len(fragment)),
         row,
         column,
         source.triangle_of_fragment[fragment],
-        (_SEGMENT, part, _PIXELS, column),
+        (_SEGMENT, part, _PIXELS, np.arange(len(fragment))),
         {
             "left": segments.left[part],
             "right": segments.right[part],
             "verdict": segments.verdict[part],
             "depth": depth[fragment],
             "stored": stored[fragment],
-            "before": source.start.depth.ravel()[source.place[fragment]],
+            "before": source.depth_tests.before[fragment],
             "after": stored[fragment],
             "passes": np.ones(len(fragment), bool),
             "primitive": source.fragments.primitive[fragment],
+            "layer": layer,
         },
     )
 
 
 def _marks(kind: Integers, columns: dict[str, NDArray[Any]]) -> dict[str, Flags]:
-    is_compared = np.isin(kind, [KINDS.index(name) for name in _OF_HOW.values()])
+    is_compared = np.isin(kind, [KINDS.index(name) for name in _COMPARED])
     is_lost = np.isin(kind, [KINDS.index("out-of-range"), KINDS.index("discarded")])
     return {
-        "covered": kind == KINDS.index("scan-pixel"),
+        "covered": np.isin(kind, _PIXEL_KINDS),
         "depth-failed": is_lost,
         "tie": is_compared & (columns["sign"] == 0),
         "nan": is_lost & np.isnan(columns["depth"]),
@@ -362,10 +409,10 @@ def _buffers(
     source: TraceSource, kind: Integers, columns: dict[str, NDArray[Any]], triangle: Integers
 ) -> tuple[BufferTrack, ...]:
     start = source.start
-    drawn = np.flatnonzero(kind == KINDS.index("scan-pixel"))
+    drawn = np.flatnonzero(np.isin(kind, _PIXEL_KINDS))
     place = source.raster.index(columns["column"], columns["row"])
     is_lost = np.isin(kind, [KINDS.index("out-of-range"), KINDS.index("discarded")])
-    decided = np.flatnonzero(is_lost | (kind == KINDS.index("scan-pixel")))
+    decided = np.flatnonzero(is_lost | np.isin(kind, _PIXEL_KINDS))
     unknown = np.full(source.raster.shape, np.nan)
     passes = columns["passes"][decided].astype(float)
     return (
@@ -377,10 +424,10 @@ def _buffers(
 
 def _listings() -> dict[str, Listing]:
     of_rows, compared, hit = listing(draw_rows), listing(hit_is_nearer), listing(hit_value)
-    ends = tuple(_OF_HOW.values())
     return (
-        {kind: of_rows for kind in KINDS if kind.startswith("scan-")}
-        | dict.fromkeys(ends, compared)
-        | {f"{kind}.{name}": hit for kind in ends for name in ("hit", "bound")}
+        {kind: of_rows for kind in KINDS if kind.startswith(("scan-", "layers-"))}
+        | {"layer-pixel": of_rows}
+        | dict.fromkeys(_COMPARED, compared)
+        | {f"{kind}.{name}": hit for kind in _COMPARED for name in ("hit", "bound")}
         | {"out-of-range": listing(depth_in_range)}
     )

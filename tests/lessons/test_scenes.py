@@ -72,7 +72,7 @@ def test_the_catalogue():
     assert scene_names() == (
         "single-triangle", "shared-edge", "fan", "segment", "clipped-segment", "polygon-window",
         "line-strip", "points", "triangle-strip", "polygon", "polygon-holes", "weiler-atherton", "connecting-edges",
-        "pentagram", "near-plane", "intersecting", "circle-of-bars", "depth-table",
+        "pentagram", "near-plane", "intersecting", "crossing-glass", "circle-of-bars", "depth-table",
         "four-layers", "z-fighting", "textured-floor",
         "lit-floor", "cube", "boxes-around", "two-boxes", "teapot", "sphere", "torus", "knot",
     )  # fmt: skip

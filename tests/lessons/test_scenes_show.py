@@ -98,6 +98,10 @@ CLAIMS = {
     "pentagram": lambda s: (16, 12) not in s.pixels() and (16, 12) in s.pixels(polygon_fill="non-zero"),
     "near-plane": lambda s: set(np.sign(s.column("transform", "after_w"))) == {-1, 1},
     "intersecting": lambda s: unlike(s, visibility="painters") > 100,
+    "crossing-glass": lambda s: np.any(
+        s.run.source.picture.color
+        != render(s.run.source.scene, replace(s.run.source.settings, visibility="painters")).color
+    ),
     "circle-of-bars": lambda s: (
         unlike(s, visibility="ray-casting") == 8 and len(s.run.stage("depth").extra["sorted"].pairs) == 3
     ),

@@ -192,6 +192,9 @@ def traces() -> dict[str, dict[str, Trace]]:
     corners = np.array([[[-0.8, -0.7, 0, 1], [0.9, -0.4, 0, 1], [0.1, 0.8, 0, 1]]])
     alone = ClipScene(corners, np.eye(3)[None], (16, 12))
     rare["smoothed"] = trace(alone, Settings(antialiasing="fxaa"))
+    layered = Settings(visibility="scan-line", blend="over")
+    rare["layers"] = trace(make_scene("crossing-glass"), layered, region=(26, 28, 8, 3))
+    rare["layers and a tie"] = trace(ClipScene(np.tile(corners, (2, 1, 1)), size=(16, 12)), layered)
     # A shader that discards half of a square, and calls a function.
     square = square_scene("if (vUv.x > 0.5) discard; c = vec4(length(vUv));", (4, 4))
     rare["shader"] = trace(square, Settings(), 0)

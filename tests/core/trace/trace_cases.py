@@ -84,6 +84,7 @@ def textured_clip_scene() -> ClipScene:
 
 
 LEFT_OUT = (
+    "crossing-glass",
     "fan",
     "triangle-strip",
     "polygon",

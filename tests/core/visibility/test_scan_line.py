@@ -1,6 +1,7 @@
 """Scan-line visible surfaces: the picture of ray casting, bit for bit; what is compared, and how rarely."""
 
 from dataclasses import replace
+from functools import cmp_to_key
 
 import numpy as np
 import pytest
@@ -10,7 +11,11 @@ from hypothesis import strategies as st
 from core import ClipScene, Settings, render, trace
 from core.coverage.pixel_runs import Raster
 from core.explain.step_tables import step_table
+from core.methods import table
 from core.pipeline import draw
+from core.pixel_history import why
+from core.trace import TraceSource
+from core.visibility.ray_casting import RayPlanes
 from core.visibility.scan_line import ALONE, HALVED, PAIR, SAME, ScanLines, Spans, draw_rows
 from lessons.scenes import make_scene
 from tests.core.strategies import ANY_TRIANGLES, REGIONS, clip_of_window
@@ -149,19 +154,105 @@ def test_the_listing_draws_the_picture(count: int, seed: int) -> None:
     scene, settings = ClipScene(crowd(count, (13, 9), seed), size=(13, 9)), replace(LINES, cull="none")
     lines = scan_lines(scene, settings)
 
-    def nearest(live: list[int], column: int, row: int) -> int:
-        m, n = lines.planes.rays(np.array([column]), np.array([row]), 0.5)
-        best = live[0]
-        for t in live[1:]:
-            if lines.planes.compare(t, best, m.tolist(), n.tolist()) == [1]:
-                best = t
-        return best
+    def nearest(live: list[int], column: int, row: int) -> list[int]:
+        return back_to_front(lines.planes, live, column, row)[-1:]
 
     seen = np.full((9, 13), -1)
     for row, left, right, t in draw_rows(spans_of(lines.spans), range(9), nearest):
         assert (seen[row, left:right] == -1).all()
         seen[row, left:right] = t
     assert np.array_equal(seen, render(scene, settings).primitive)
+
+
+def back_to_front(planes: RayPlanes, live: list[int], column: int, row: int) -> list[int]:
+    """Sort triangles at a pixel's centre, by exact comparisons alone; of equal ones the first drawn lies on top."""
+    m, n = planes.rays(np.array([column]), np.array([row]), 0.5)
+
+    def compare(one: int, other: int) -> int:
+        return planes.compare(one, other, m.tolist(), n.tolist())[0] or other - one
+
+    return sorted(live, key=cmp_to_key(compare))
+
+
+BLENDED = replace(LINES, cull="none", blend="over")
+
+
+def flat_crowd(count: int, size: tuple[int, int], seed: int) -> ClipScene:
+    """Return a crowd, each triangle of one colour and alpha, some twice: their layers are equally near."""
+    generator = np.random.default_rng(seed)
+    clip = crowd(count, size, seed)
+    clip = clip[generator.integers(0, count, count)] if seed % 2 else clip
+    color = np.repeat(generator.choice([0.25, 0.5, 1.0], (count, 1, 4)), 3, axis=1)
+    return ClipScene(clip, color, size)
+
+
+@given(st.integers(1, 9), st.integers(0, 2**32 - 1), st.sampled_from(["over", "additive"]), st.booleans())
+def test_blended_layers_are_those_of_a_sorted_stack(count: int, seed: int, blend: str, is_msaa: bool) -> None:
+    scene, settings = flat_crowd(count, (13, 9), seed), replace(BLENDED, blend=blend)
+    lines, rule = scan_lines(scene, settings), table.get("blend", blend).function
+    frame = render(scene, settings)
+    expected = np.tile(scene.background.astype(np.float32), (9, 13, 1))
+    stacks: dict[tuple[int, int], list[int]] = {}
+    for t, rows in spans_of(lines.spans).items():
+        for row, (left, right) in rows.items():
+            for column in range(left, right):
+                stacks.setdefault((row, column), []).append(t)
+    for (row, column), live in stacks.items():
+        order = back_to_front(lines.planes, live, column, row)
+        for t in order:
+            color = scene.attributes[t, :1].astype(np.float64)
+            expected[row, column] = rule(color, expected[row, column][None])[0]
+        assert frame.primitive[row, column] == order[-1]
+    assert np.allclose(frame.color, expected, rtol=1e-6, atol=1e-6)
+    opaque = render(scene, replace(settings, blend="opaque"))
+    assert np.array_equal(frame.depth, opaque.depth)
+    assert np.array_equal(frame.primitive, opaque.primitive)
+
+    # The rows of a trace give the same, and so does each pixel's history; several samples, too.
+    chosen = replace(settings, antialiasing="msaa-4" if is_msaa else "none")
+    found = trace(scene, chosen)
+    frame = render(scene, chosen)
+    color = found.stage("resolve" if is_msaa else "blend").buffers
+    assert any(np.array_equal(track.at(10**6).reshape(frame.color.shape), frame.color) for track in color)
+    if not is_msaa:
+        ends = {track.name: track.at(10**6) for track in found.stage("depth").buffers}
+        assert np.array_equal(ends["depth"], frame.depth)
+        assert np.array_equal(ends["primitive"], frame.primitive)
+        last = why(TraceSource(scene, settings), 6, 4).fragments
+        passed = [event.after for event in last if not event.is_rejected]
+        if passed:
+            assert np.array_equal(passed[-1].color, frame.color[4, 6])
+            assert passed[-1].triangle == frame.primitive[4, 6]
+
+
+@given(st.integers(1, 9), st.integers(0, 2**32 - 1))
+def test_the_listing_draws_layers(count: int, seed: int) -> None:
+    scene = flat_crowd(count, (13, 9), seed)
+    lines = scan_lines(scene, BLENDED)
+
+    def order(live: list[int], column: int, row: int) -> list[int]:
+        return back_to_front(lines.planes, live, column, row)
+
+    layers: dict[tuple[int, int], list[int]] = {}
+    for row, left, right, t in draw_rows(spans_of(lines.spans), range(9), order):
+        for column in range(left, right):
+            layers.setdefault((row, column), []).append(t)
+    found = trace(scene, BLENDED).stage("blend")
+    drawn: dict[tuple[int, int], list[int]] = {}
+    for (column, row), t in zip(found.pixel.tolist(), found.triangle.tolist(), strict=True):
+        drawn.setdefault((row, column), []).append(t)
+    assert layers == drawn
+
+
+@given(st.integers(2, 8), st.integers(0, 2**32 - 1))
+def test_one_blended_triangle_lies_over_the_picture_before_where_it_is_nearest(count: int, seed: int) -> None:
+    scene = flat_crowd(count, (9, 7), seed)
+    last = count - 1
+    found = trace(scene, BLENDED, last).stage("blend")
+    nearest = render(scene, BLENDED).primitive == last
+    drawn = np.zeros((7, 9), bool)
+    drawn[found.pixel[:, 1], found.pixel[:, 0]] = True
+    assert np.array_equal(drawn, nearest)
 
 
 def test_only_halving_computes_more_depths_than_a_depth_buffer_tests() -> None:
@@ -208,10 +299,3 @@ def test_nothing_to_draw_has_no_rows(clip) -> None:
     found = trace(ClipScene(clip, size=(8, 5)), LINES).stage("depth")
     assert found.steps.row_count == 0
     assert step_table(found, 0) is None
-
-
-def test_opaque_or_blended_only_the_nearest_is_drawn() -> None:
-    clip, color = crowd(6, (13, 9)), np.random.default_rng(1).random((6, 3, 4))
-    scene, settings = ClipScene(clip, color, (13, 9)), replace(LINES, cull="none", blend="over")
-    covered = render(scene, settings).primitive >= 0
-    assert trace(scene, settings).stage("blend").steps.row_count == covered.sum()
