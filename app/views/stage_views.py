@@ -126,7 +126,7 @@ def _accesses(trace: Trace, fragment_count: int) -> str:
     place = "sample" if sampling.count > 1 else "pixel"
     places = source.raster.shape[0] * source.raster.shape[1] * sampling.count
     count = len(geometry.primitives)
-    if geometry.asks_all:
+    if geometry.drawing.asks_all:
         return f"Accessed: each {place} once, {many} {counted(places * count, 'time')}."
     return f"Accessed: each {one} once, {place}s {counted(fragment_count, 'time')}."
 

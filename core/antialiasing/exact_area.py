@@ -325,7 +325,7 @@ class PiecePainter:
                 is_cut = reaches_out.take(of)
                 parts = (a * side * is_cut, b * side * is_cut, np.where(is_cut, (value - limit) * side, 1.0))
                 inside = join_pieces(list(split_pieces(inside, *parts)))
-        if not self._geometry.uses_depth_test:
+        if not self._geometry.drawing.uses_depth_test:
             return inside
         primitive, shown = (
             self.squares.primitive.take(fragment.take(inside.number)),
@@ -352,9 +352,9 @@ class PiecePainter:
             x, y = self.centroids(there)
             _, keeps, stored = depth_at(self._geometry, primitive, x, y, self._format)
             passes = keeps
-            if self._geometry.casts_rays:
+            if self._geometry.drawing.casts_rays:
                 passes = keeps & ((there.primitive < 0) | self._is_nearer(primitive, there.primitive, x, y))
-            elif self._geometry.uses_depth_test:
+            elif self._geometry.drawing.uses_depth_test:
                 # The depth that is there, at this piece's own centroid.
                 _, _, old = depth_at(self._geometry, np.maximum(there.primitive, 0), x, y, self._format)
                 old = np.where(there.primitive >= 0, old, old.dtype.type(self._format.cleared))

@@ -184,11 +184,11 @@ def trace_depth(source: TraceSource) -> StageTrace:
     if isinstance(source.ray_tests, ScanLines):
         return trace_scan_lines(source, source.ray_tests)
     found = _trace_tests(source) if source.ray_tests is None else trace_rays(source, source.ray_tests)
-    if source.geometry.asks_all:
+    if source.geometry.drawing.asks_all:
         found = with_misses(source, found)
     if source.ray_tests is not None and source.ray_tests.walk is not None:
         found = with_boxes(source, found, source.ray_tests)
-    order = source.geometry.row_order
+    order = source.geometry.drawing.row_order
     return found if order is None else in_order(found, order)
 
 
@@ -198,7 +198,7 @@ def _trace_tests(source: TraceSource) -> StageTrace:
     writes = np.ones(len(fragments), bool) if source.writes_depth is None else source.writes_depth
     is_stored = tests.passes & writes
     after = np.where(is_stored, stored, tests.before) if tests.left is None else tests.left
-    tested = source.geometry.uses_depth_test
+    tested = source.geometry.drawing.uses_depth_test
     columns: dict[str, np.ndarray] = {
         "column": fragments.column,
         "row": fragments.row,

@@ -74,7 +74,7 @@ def _draw_strip(context: DrawContext, palette: Floats | None) -> tuple[Singles, 
     pixel, primitive = _fragments(context)
     count, passes = len(pixel), None
     with context.timed("depth"):
-        is_tested = geometry.uses_depth_test or not context.depth_format.quantity.is_window_depth
+        is_tested = geometry.drawing.uses_depth_test or not context.depth_format.quantity.is_window_depth
         if is_tested or not geometry.is_in_range.all():
             pixel, primitive, passes = _test_depth(context, pixel, primitive)
         stacks = stacks_of(pixel, np.arange(len(pixel)))
@@ -107,7 +107,7 @@ def _test_depth(
         pixel, primitive, stored = pixel[keeps], primitive[keeps], stored[keeps]
     stacks = stacks_of(pixel, np.arange(len(pixel)))
     cleared = np.full(len(context.pixels), depth_format.cleared, depth_format.stored_type)
-    tests = run_depth_tests(stored, stacks, cleared, depth_format, context.geometry.uses_depth_test)
+    tests = run_depth_tests(stored, stacks, cleared, depth_format, context.geometry.drawing.uses_depth_test)
     return pixel, primitive, tests.passes
 
 

@@ -31,7 +31,7 @@ def all_pass_depth_test(geometry: Geometry, depth_format: DepthFormat) -> bool:
     geometry : Geometry
         All corners projected, all triangles between the near and the far plane.
     """
-    if not geometry.uses_depth_test:
+    if not geometry.drawing.uses_depth_test:
         return True
     if not depth_format.quantity.is_window_depth:
         return False

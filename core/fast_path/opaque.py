@@ -57,7 +57,7 @@ def find_visible(context: DrawContext) -> tuple[NearestFragments, Split]:
             len(context.pixels),
             len(geometry.primitives),
             context.depth_format,
-            geometry.uses_depth_test,
+            geometry.drawing.uses_depth_test,
             memory,
         )
     with context.timed("edges"):
@@ -79,7 +79,7 @@ def _word_planes(context: DrawContext, nearest: NearestFragments) -> tuple[Plane
     geometry, depth_format = context.geometry, context.depth_format
     count = len(geometry.primitives)
     quantity = depth_format.quantity
-    if not geometry.uses_depth_test or quantity.plane == "inverse-w" or quantity.convert is not None:
+    if not geometry.drawing.uses_depth_test or quantity.plane == "inverse-w" or quantity.convert is not None:
         return None, np.zeros(count, bool)
     number = np.arange(1, count + 1)
     if depth_format.is_planar:

@@ -248,7 +248,7 @@ class Passage:
 def fold(fragments: PixelFragments, start: PixelState, candidates: PixelCandidates) -> list[Passage]:
     """Lay the fragments into the buffers one by one; return what became of each (F)."""
     rule = resolve(candidates.settings).blend_method.function
-    tested = candidates.geometry.uses_depth_test
+    tested = candidates.geometry.drawing.uses_depth_test
     state, below = start, -1
     passages: dict[int, Passage] = {}
     for k in fragments.in_turn:

@@ -27,7 +27,7 @@ from core.depth.fixed_depth import FixedPlanes, set_up_fixed_planes
 from core.interpolation.interpolation import Planes, set_up_planes, value_plane
 from core.records.arrays import Flags, Floats, Integers, cached_property
 from core.records.frame import StageCount
-from core.records.primitives import IndexedPrimitives, Pieces, Primitives, Rings
+from core.records.primitives import DrawingOrder, IndexedPrimitives, Pieces, Primitives, Rings
 from core.resolved import resolve
 from core.settings import Settings
 from core.transform.matrices import reversed_clip_depth
@@ -35,7 +35,6 @@ from core.transform.vertex_stage import VertexStage
 
 if TYPE_CHECKING:
     from core.lines.wireframe import Outlines
-    from core.records.steps import RowOrder
     from core.stages.object_tree import ObjectTree
     from core.stages.primitives import OutlineClip, PolygonClip
     from core.visibility.ray_casting import RayPlanes
@@ -69,18 +68,11 @@ class Geometry:
     """(M,) uint8, of the same vertices."""
     doubled_area: Floats
     """(P,) float64: twice the signed snapped area where all corners are projected, else the 3x3 determinant."""
-    uses_depth_test: bool
-    casts_rays: bool
-    """Whether fragments are compared exactly (``ray_planes``), not by the depth buffer."""
+    drawing: DrawingOrder
+    """The order of all triangles of the scene, and what decides who is seen."""
     settings: Settings
     count: StageCount
     """The time of what is computed on demand is added here."""
-    row_order: "RowOrder | None" = None
-    """How the stage depth lists its rows; ``None``: triangle by triangle."""
-    asks_all: bool = False
-    """Whether the ray of a pixel asks all primitives."""
-    walks_tree: bool = False
-    """Whether the ray of a pixel finds them in the boxes of ``object_tree``."""
     object_tree: "ObjectTree | None" = None
     """The boxes that objects are culled by, or rays find triangles with; ``None``: no method asks for them."""
     shift: tuple[float, float] = (0.0, 0.0)
@@ -197,7 +189,7 @@ class Geometry:
 
         Of wireframes and polygons every ray asks all: what covers a pixel there may lie beside the boxes.
         """
-        if not self.walks_tree or self.object_tree is None or not self.is_cut_to_pixels:
+        if not self.drawing.walks_tree or self.object_tree is None or not self.is_cut_to_pixels:
             return None
         from core.stages.object_tree import rays_in_tree
 

@@ -77,8 +77,8 @@ def run_visibility_tests(
         Where triangles are compared exactly: how that was decided.
     """
     writes = writes_depth(fragments)
-    if not geometry.casts_rays:
-        is_tested = geometry.uses_depth_test
+    if not geometry.drawing.casts_rays:
+        is_tested = geometry.drawing.uses_depth_test
         return run_depth_tests(stored, stacks, start.depth, depth_format, is_tested, writes), None
     planes = geometry.ray_planes
     m, n = planes.rays(fragments.column, fragments.row, raster.center)
