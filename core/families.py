@@ -132,7 +132,7 @@ def facts(scene: AnyScene | None) -> list[str]:
 def casts_rays(visibility: str) -> bool:
     """Return whether a setting is a method, with its own function, that compares triangles exactly: by its trait."""
     found = None if isinstance(visibility, ReplacedName) else table.get("visibility", visibility).traits
-    return found in ("rays", "scan-lines")
+    return bool(found == "exact")
 
 
 def suited(settings: Any, scene: AnyScene) -> Any:

@@ -5,6 +5,12 @@ from importlib import import_module
 from typing import Any
 
 
+def imported(place: str) -> Any:
+    """Return what stands at a place, ``module.name``."""
+    module, _, name = place.rpartition(".")
+    return getattr(import_module(module), name)
+
+
 def import_on_demand(package: dict[str, Any], **places: str) -> Callable[[str], Any]:
     """Return the ``__getattr__`` of a package.
 
@@ -24,7 +30,7 @@ def import_on_demand(package: dict[str, Any], **places: str) -> Callable[[str], 
     def find(name: str) -> Any:
         if name not in places:
             raise AttributeError(f"module {package['__name__']!r} has no attribute {name!r}")
-        package[name] = getattr(import_module(places[name]), name)
+        package[name] = imported(f"{places[name]}.{name}")
         return package[name]
 
     return find

@@ -202,7 +202,7 @@ def find_visible(scene: AnyScene, geometry: Geometry, raster: Raster, counts: Co
     pixel_count = raster.shape[0] * raster.shape[1]
     cover_count = np.zeros(pixel_count, np.int32)
     owner_count = len(geometry.primitives if outlines is None else outlines)
-    in_order = geometry.drawing.casts_rays or not depth_format.keeps_nearest
+    in_order = geometry.drawing.decides is not None or not depth_format.keeps_nearest
     nearest = None if in_order else NearestFragments(pixel_count, owner_count, depth_format, tested)
     counts["blend"].note = resolved.blend_inserted_for
     keeps_all = in_order or resolved.is_mixed

@@ -21,7 +21,6 @@ from core.resolved import resolve
 from core.scene import ClipScene
 from core.stages.declared import GEOMETRY_STAGES, PHASES, stage_of
 from core.trace import TraceSource
-from core.visibility.scan_line import HALVED, ScanLines
 from widgets.space.orbit import Orbit
 from widgets.space.scene_view import SceneView
 from widgets.space.view import OrbitArea
@@ -118,8 +117,9 @@ def _accesses(trace: Trace, fragment_count: int) -> str:
     drawn, sampling = nouns(source.scene.corner_count), resolve(source.settings).sampling
     if sampling.is_area or source.scene.corner_count == 0:
         return ""
-    if isinstance(source.ray_tests, ScanLines):
-        return "" if sampling.count > 1 else _compared_at_ends(source.ray_tests, fragment_count)
+    work = source.exact_tests.work if source.exact_tests is not None else {}
+    if work:
+        return "" if sampling.count > 1 else _compared_at_ends(work, fragment_count)
     one, many = (
         ("piece", "pieces") if len(geometry.primitives) > len(geometry.kept) else (drawn.one, drawn.many)
     )
@@ -131,13 +131,11 @@ def _accesses(trace: Trace, fragment_count: int) -> str:
     return f"Accessed: each {one} once, {place}s {counted(fragment_count, 'time')}."
 
 
-def _compared_at_ends(lines: ScanLines, fragment_count: int) -> str:
+def _compared_at_ends(work: Mapping[str, int], fragment_count: int) -> str:
     """Return how many depths scan lines compute, against the fragments that a depth buffer tests."""
-    segments = lines.segments
-    halved = int((segments.verdict == HALVED).sum())
     return (
-        f"Computed: {counted(segments.evaluations, 'depth')}, at the ends of segments; a z-buffer tests "
-        f"{counted(fragment_count, 'fragment')}. Halved: {counted(halved, 'segment')}."
+        f"Computed: {counted(work['depths computed'], 'depth')}, at the ends of segments; a z-buffer tests "
+        f"{counted(fragment_count, 'fragment')}. Halved: {counted(work['halvings'], 'segment')}."
     )
 
 

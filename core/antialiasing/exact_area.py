@@ -352,7 +352,7 @@ class PiecePainter:
             x, y = self.centroids(there)
             _, keeps, stored = depth_at(self._geometry, primitive, x, y, self._format)
             passes = keeps
-            if self._geometry.drawing.casts_rays:
+            if self._geometry.drawing.decides is not None:
                 passes = keeps & ((there.primitive < 0) | self._is_nearer(primitive, there.primitive, x, y))
             elif self._geometry.drawing.uses_depth_test:
                 # The depth that is there, at this piece's own centroid.

@@ -33,7 +33,7 @@ from core.study.workloads import (
     sphere_mesh,
     wall_scene,
 )
-from core.visibility.measured_scan_line import scan_line_work
+from core.trace.source import TraceSource
 
 # Studies of what is seen: hidden surfaces, culling, depth formats and polygon clipping, against exact
 # comparison.
@@ -67,16 +67,17 @@ class VisibilityTask(SeenTask):
         counts, drawing = super().counts(settings, made), table.get("visibility", settings.visibility)
         order = drawing.function(self._clip)
         compared = counts.pop("depth tests")
-        lines = scan_line_work(self.scene, settings)
-        casts_rays = order.casts_rays and not lines
-        computed = lines.get("depths computed", compared if order.uses_depth_test else 0)
+        exact = TraceSource(self.scene, settings).exact_tests if order.decides else None
+        work = exact.work if exact is not None else {}
+        asks_all = exact is not None and not work
+        computed = work.get("depths computed", compared if order.uses_depth_test else 0)
         return counts | {
-            "depth tests": compared if order.uses_depth_test and not order.casts_rays else 0,
+            "depth tests": compared if order.uses_depth_test and exact is None else 0,
             "depths computed": computed,
-            "span ends sorted": lines.get("span ends sorted", 0),
-            "depths and span ends": computed + lines.get("span ends sorted", 0),
-            "hits compared": compared if casts_rays else 0,
-            "rays times triangles": SIZE[0] * SIZE[1] * len(self._clip) if casts_rays else 0,
+            "span ends sorted": work.get("span ends sorted", 0),
+            "depths and span ends": computed + work.get("span ends sorted", 0),
+            "hits compared": compared if asks_all else 0,
+            "rays times triangles": SIZE[0] * SIZE[1] * len(self._clip) if asks_all else 0,
             "triangles sorted": len(self._clip) if settings.visibility == "painters" else 0,
             **self._counts_of_tree(settings),
         }

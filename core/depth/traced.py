@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from core.depth.depth import depth_in_range, stack_fragments, store_depth
 from core.depth.fixed_depth import NUMBER_BITS, FixedPlanes, packed_depth_test, rounded_depth_test
+from core.lazy_import import imported
 from core.lines.wireframe import LineFragments, line_parameter
 from core.methods import table
 from core.records.arrays import Flags, Integers
@@ -17,11 +18,6 @@ from core.stages.fragments import fragment_quantity, logarithm_range, outlines_o
 from core.trace.row_order import in_order
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
-from core.visibility.scan_line import ScanLines
-from core.visibility.traced import trace_rays
-from core.visibility.traced_by_pixel import with_misses
-from core.visibility.traced_in_tree import with_boxes
-from core.visibility.traced_scan_line import trace_scan_lines
 
 # Keys of the depth method ``fixed-38`` in the trace: depth and triangle in one number, the least of which
 # is kept.
@@ -181,14 +177,8 @@ CELL = (
 
 def trace_depth(source: TraceSource) -> StageTrace:
     """Return one row for every fragment, in the order that the method of visibility asks for."""
-    if isinstance(source.ray_tests, ScanLines):
-        return trace_scan_lines(source, source.ray_tests)
-    found = _trace_tests(source) if source.ray_tests is None else trace_rays(source, source.ray_tests)
-    if source.geometry.drawing.asks_all:
-        found = with_misses(source, found)
-    if source.ray_tests is not None and source.ray_tests.walk is not None:
-        found = with_boxes(source, found, source.ray_tests)
-    order = source.geometry.drawing.row_order
+    exact, order = source.exact_tests, source.geometry.drawing.row_order
+    found = _trace_tests(source) if exact is None else imported(exact.tracer)(source, exact)
     return found if order is None else in_order(found, order)
 
 

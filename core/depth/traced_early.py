@@ -57,7 +57,7 @@ def without_hidden(source: TraceSource, found: StageTrace) -> StageTrace:
         buffers=(*(_of_shaded(track, shaded) for track in found.buffers), counted),
         constants={
             **found.constants,
-            "casts_rays": source.geometry.drawing.casts_rays,
+            "casts_rays": source.geometry.drawing.decides is not None,
             "larger_is_nearer": source.depth_format.larger_is_nearer,
         },
     )

@@ -10,7 +10,6 @@ from core.records.steps import ROW_BY_ROW, Steps, ends_of
 from core.resolved import resolve
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
-from core.visibility.scan_line import ScanLines
 
 
 def trace_blend(source: TraceSource) -> StageTrace:
@@ -41,7 +40,7 @@ def trace_blend(source: TraceSource) -> StageTrace:
             *operations[mode],
         )
         listings = {name: listings[mode], f"{name}.weigh": listing(weighed_color)}
-    by_rows = isinstance(source.ray_tests, ScanLines) and source.ray_tests.segments.is_layered
+    by_rows = source.exact_tests is not None and source.exact_tests.turn is not None
     ends = ends_of(triangle), ends_of(fragments.primitive, fragments.row)
     if by_rows:
         ends = ends_of(fragments.row), ends_of(fragments.row, triangle)

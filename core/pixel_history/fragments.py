@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.antialiasing.exact_area import ColoredPieces, PiecePainter, piece_painter, sum_areas
 from core.antialiasing.pixel_pieces import area_of, split_pieces, whole_pixels
@@ -31,8 +32,6 @@ from core.stages.fragments import (
 )
 from core.stages.hidden_surfaces import cleared_buffers, run_visibility_tests
 from core.trace.source import TraceSource
-from core.visibility.ray_casting import RayTests
-from core.visibility.scan_line import ScanLines
 
 # What the history of a pixel is made of: keys and numbers, no sentences.
 
@@ -154,12 +153,8 @@ class PixelFragments:
     """(F,) bool, stored in the depth buffer if it passes."""
     scale: float
     """The number that the depth format stores a depth of 1 as: above 1 it stores whole numbers."""
-    signs: Integers | None
-    """(F,) int64, where rays are cast: 1 nearer than the nearest so far, -1 farther, 0 equally near or out of range."""
-    seen: int | None = None
-    """The triangle that is seen, where all are told by it: row decided span by span, or a ray in a tree of boxes."""
-    hidden_in: Integers | None = None
-    """(F,) int64, the box of a tree that the ray has not opened around it, -1: it was compared; ``None``: no tree."""
+    exact: tuple[NDArray[Any], Mapping[str, Integers]] | None
+    """Of those that ``keeps`` has, (K,): what is said of an exact comparison, as ``ExactTests.told`` gives it."""
     turn: Integers | None = None
     """(F,) int64, the fragments from back to front, where scan lines sort them; ``None``: in drawing order."""
 
@@ -188,24 +183,14 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
     here = stack_fragments(np.zeros(len(index), np.int64))
     writes = writes_depth(fragments)
     kept, cleared = fragments.select(keeps), cleared_buffers(1, depth_format)
-    tests, rays = run_visibility_tests(
+    tests, exact = run_visibility_tests(
         geometry, kept, stored[index], here, cleared, raster, depth_format, keeps_visits=True
     )
     before, passes = np.full(count, np.nan, depth_format.stored_type), np.zeros(count, bool)
     before[index], passes[index] = tests.before, tests.passes
-    signs = None
-    if rays is not None:
-        signs = np.zeros(count, np.int64)
-        signs[index] = rays.sign
-    seen = int(rays.seen[0]) if isinstance(rays, ScanLines) and len(index) else None
     turn = None
-    if isinstance(rays, ScanLines) and rays.segments.is_layered:
-        turn = np.concatenate([np.flatnonzero(~keeps), index[rays.drawn]])
-    hidden_in = None
-    if isinstance(rays, RayTests) and rays.walk is not None and signs is not None:
-        walk, hidden_in = rays.walk, np.full(count, -1)
-        signs[index] = np.where(walk.wins, 1, np.where(walk.ties, 0, -1))
-        seen, hidden_in[index] = int(walk.winner.max(initial=-1)), walk.hidden_in
+    if exact is not None and exact.turn is not None:
+        turn = np.concatenate([np.flatnonzero(~keeps), index[exact.turn]])
     return PixelFragments(
         primitive,
         geometry.primitives.triangle[primitive],
@@ -221,9 +206,7 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
         weigh_alpha(surface.color, fragments),
         np.ones(count, bool) if writes is None else writes,
         depth_format.scale,
-        signs,
-        seen,
-        hidden_in,
+        None if exact is None else exact.told(),
         turn,
     )
 
@@ -282,23 +265,17 @@ def _depth_link(fragments: PixelFragments, k: int, holder: int, tested: bool) ->
         "scale": fragments.scale,
         "inverse_w": float(fragments.inverse_w[k]),
     }
-    if fragments.hidden_in is not None and fragments.seen is not None:
-        own = int(fragments.triangle[k]) == fragments.seen
-        values |= {"against": -1 if own else fragments.seen, "node": int(fragments.hidden_in[k])}
     if fragments.in_range[k] and not fragments.keeps[k]:
         key = "discarded"
     elif not fragments.keeps[k]:
         key = "before-near" if depth < 0 else "behind-far" if depth > 1 else "undefined"
     elif not tested:
         key = "not-tested"
-    elif fragments.signs is not None:
-        key = {1: "ray-nearer", 0: "ray-tied", -1: "ray-farther"}[int(fragments.signs[k])]
-        if fragments.hidden_in is not None:
-            key = "ray-hidden" if values["node"] >= 0 else key
-        elif fragments.seen is not None:
-            key = {1: "scan-nearest", 0: "scan-tied", -1: "scan-farther"}[int(fragments.signs[k])]
-            values["against"] = fragments.seen if fragments.turn is None else holder
-            key = key if fragments.turn is None else "scan-layer" if holder >= 0 else "scan-farthest"
+    elif fragments.exact is not None:
+        keys, numbers = fragments.exact
+        place = int(fragments.keeps[:k].sum())
+        key = str(keys[place])
+        values |= {name: int(of_all[place]) for name, of_all in numbers.items()}
     elif fragments.passes[k]:
         key = "passed"
     else:

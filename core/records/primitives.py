@@ -13,6 +13,7 @@ from core.records.arrays import Flags, Floats, Integers, cached_property, checke
 
 if TYPE_CHECKING:
     from core.records.steps import RowOrder
+    from core.visibility.exact_case import Decide
 
 # The records that stages hand on: triangles in clip space with everything that is to be interpolated.
 
@@ -209,8 +210,8 @@ class DrawingOrder:
     order: Integers
     """(Q,) int64, the primitives from the first drawn to the last; one that is cut stands there once for each piece."""
     uses_depth_test: bool
-    casts_rays: bool = False
-    """Whether fragments are compared exactly, not by what the depth buffer holds."""
+    decides: "Decide | None" = None
+    """Compares fragments exactly; ``None``: by what the depth buffer holds, if at all."""
     row_order: "RowOrder | None" = None
     """How the stage depth lists its rows, as `PIXEL_BY_PIXEL`; ``None``: triangle by triangle."""
     asks_all: bool = False
@@ -219,6 +220,8 @@ class DrawingOrder:
     """What is drawn in this order; ``None``: the primitives themselves."""
     walks_tree: bool = False
     """Whether rays find the primitives that they ask in a tree of boxes."""
+    own_rows: str = ""
+    """What puts rows of the order itself before those of the depth test, ``module.function``; empty: it has none."""
 
     @property
     def is_as_given(self) -> bool:

@@ -1,11 +1,11 @@
-"""Which fragments are seen: by the depth buffer, by drawing order, or by exact rays.
+"""Which fragments are seen: by the depth buffer, by drawing order, or as a method of visibility decides exactly.
 
-It joins the depth buffer, ray casting and scan lines; picture, trace and history of a pixel ask it alike.
+Picture, trace and history of a pixel ask it alike.
 """
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,10 +28,7 @@ from core.resolved import resolve
 from core.scene import AnyScene
 from core.stages.fragments import fragments_at, owner_of
 from core.stages.geometry import Geometry
-from core.visibility.ray_casting import RayTests, run_ray_tests
-
-if TYPE_CHECKING:
-    from core.visibility.scan_line import ScanLines
+from core.visibility.exact_case import ExactCase, ExactTests
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +56,7 @@ def run_visibility_tests(
     raster: Raster,
     depth_format: DepthFormat,
     keeps_visits: bool = False,
-) -> "tuple[DepthTests, RayTests | ScanLines | None]":
+) -> tuple[DepthTests, ExactTests | None]:
     """Decide of F fragments in drawing order which are kept, each against what is there before it.
 
     Parameters
@@ -73,45 +70,36 @@ def run_visibility_tests(
     -------
     tests : DepthTests
         The buffer before each fragment, and which pass.
-    rays : RayTests or ScanLines, optional
+    exact : ExactTests, optional
         Where triangles are compared exactly: how that was decided.
     """
     writes = writes_depth(fragments)
-    if not geometry.drawing.casts_rays:
+    decides = geometry.drawing.decides
+    if decides is None:
         is_tested = geometry.drawing.uses_depth_test
         return run_depth_tests(stored, stacks, start.depth, depth_format, is_tested, writes), None
-    planes = geometry.ray_planes
-    m, n = planes.rays(fragments.column, fragments.row, raster.center)
-    triangle = geometry.primitives.triangle.take(fragments.primitive)
-    if geometry.tree_rays is not None:
-        return walk_to_nearest(geometry, triangle, (m, n), stored, stacks, start, keeps_visits)
-    by_lines = resolve(geometry.settings).method("visibility").traits == "scan-lines"
-    if by_lines and geometry.outlines is None:
-        from core.visibility.scan_line import find_scan_lines  # Only scan lines wait for it.
-
-        # Lines have no spans: each of their pixels is compared for itself.
-        pixel = raster.index(fragments.column, fragments.row)
-        lines = find_scan_lines(
-            planes,
-            triangle,
-            fragments.primitive,
-            fragments.column,
-            fragments.row,
-            pixel,
-            start.triangle,
-            raster.center,
-            resolve(geometry.settings).is_mixed,
-        )
-        turned = stack_in_turn(pixel, lines) if lines.segments.is_layered else stacks
-        return DepthTests(replay_depths(stored, turned, start.depth, lines.passes), lines.passes), lines
-    rays = run_ray_tests(planes, triangle, m, n, stacks.layers(), start.triangle.take(stacks.pixel), writes)
-    kept = rays.passes if writes is None else rays.passes & writes
-    return DepthTests(replay_depths(stored, stacks, start.depth, kept), rays.passes), rays
+    case = ExactCase(
+        planes=geometry.ray_planes,
+        fragments=fragments,
+        triangle=geometry.primitives.triangle.take(fragments.primitive),
+        stacks=stacks,
+        initial=start.triangle,
+        center=raster.center,
+        writes=writes,
+        tree=geometry.tree_rays,
+        is_mixed=resolve(geometry.settings).is_mixed,
+        is_outlined=geometry.outlines is not None,
+        keeps_visits=keeps_visits,
+    )
+    passes, exact = decides(case)
+    kept = passes if writes is None else passes & writes
+    turned = stacks if exact.turn is None else stack_in_turn(case.pixel, passes, exact.turn)
+    return DepthTests(replay_depths(stored, turned, start.depth, kept), passes), exact
 
 
-def stack_in_turn(pixel: Integers, lines: "ScanLines") -> PixelStacks:
-    """Stack fragments on their pixels (F,), those that scan lines draw behind the others in the order of drawing."""
-    turn = np.concatenate([np.flatnonzero(~lines.passes), lines.drawn])
+def stack_in_turn(pixel: Integers, passes: Flags, drawn: Integers) -> PixelStacks:
+    """Stack fragments on their pixels (F,), those ``drawn`` (D,) in their order, behind the others."""
+    turn = np.concatenate([np.flatnonzero(~passes), drawn])
     stacks = stack_fragments(pixel.take(turn))
     return replace(stacks, fragment=turn.take(stacks.fragment))
 
@@ -119,42 +107,6 @@ def stack_in_turn(pixel: Integers, lines: "ScanLines") -> PixelStacks:
 def tests_early(scene: AnyScene, geometry: Geometry) -> bool:
     """Return whether a fragment is shaded only if it passes the depth test: never where a shader might discard it."""
     return resolve(geometry.settings).tests_early and scene.program is None
-
-
-def pixels_of(stacks: PixelStacks) -> Integers:
-    """Return the pixel (F,) int64 of every fragment."""
-    order, count = np.argsort(stacks.bottom), len(stacks.fragment)
-    found = np.empty(count, np.int64)
-    heights = np.diff(stacks.bottom[order], append=count)
-    found[stacks.fragment] = np.repeat(stacks.pixel[order], heights)
-    return found
-
-
-def walk_to_nearest(
-    geometry: Geometry,
-    triangle: Integers,
-    rays: tuple[Floats, Floats],
-    stored: Stored,
-    stacks: PixelStacks,
-    start: StartBuffers,
-    keeps_visits: bool,
-) -> tuple[DepthTests, RayTests]:
-    """Send rays m, n (F,) through the tree, and keep of F fragments the nearest of each pixel alone.
-
-    The other arguments are those of `run_visibility_tests`; ``triangle`` (F,) are numbers of the scene.
-    """
-    from core.visibility.tree_walk import walk_rays  # Only rays in a tree wait for it.
-
-    assert geometry.tree_rays is not None
-    pixel = pixels_of(stacks)
-    pixels, first = np.unique(pixel, return_index=True)
-    of_ray = pixels, rays[0].take(first), rays[1].take(first)
-    initial = start.triangle.take(pixels)
-    tests, walk = walk_rays(
-        geometry.tree_rays, geometry.ray_planes, pixel, triangle, of_ray, initial, keeps_visits
-    )
-    passed = DepthTests(replay_depths(stored, stacks, start.depth, walk.wins), walk.wins)
-    return passed, replace(tests, walk=walk)
 
 
 @dataclass(frozen=True, eq=False)
@@ -236,11 +188,9 @@ def decide_fragments(
         fragments, stored = fragments.take(order), stored[order]
     stacks = stack_fragments(raster.index(fragments.column, fragments.row))
     start = cleared_buffers(raster.shape[0] * raster.shape[1], depth_format)
-    tests, rays = run_visibility_tests(geometry, fragments, stored, stacks, start, raster, depth_format)
-    drawn = getattr(rays, "drawn", None)
-    if drawn is not None:
-        # Scan lines draw in an order of their own.
-        fragments, stored = fragments.take(drawn), stored[drawn]
+    tests, exact = run_visibility_tests(geometry, fragments, stored, stacks, start, raster, depth_format)
+    if exact is not None and exact.turn is not None:
+        fragments, stored = fragments.take(exact.turn), stored[exact.turn]
         stacks = stack_fragments(raster.index(fragments.column, fragments.row))
-        return DecidedFragments(fragments, stored, stacks, np.ones(len(drawn), bool))
+        return DecidedFragments(fragments, stored, stacks, np.ones(len(exact.turn), bool))
     return DecidedFragments(fragments, stored, stacks, tests.passes, tests.left)

@@ -33,8 +33,7 @@ from core.stages.fragments import (
 from core.stages.hidden_surfaces import StartBuffers, run_visibility_tests, tests_early
 from core.stages.needs import check_edits
 from core.stages.vertices import Before, Geometry, drawing_order, process_geometry
-from core.visibility.ray_casting import RayTests
-from core.visibility.scan_line import ScanLines
+from core.visibility.exact_case import ExactTests
 
 # How long a trace is at most: each pixel test keeps all its numbers, so some runs are too long to be kept.
 
@@ -203,7 +202,7 @@ class TraceSource:
         return writes_depth(self.fragments)
 
     @cached_property
-    def _visibility_tests(self) -> tuple[DepthTests, RayTests | ScanLines | None]:
+    def _visibility_tests(self) -> tuple[DepthTests, ExactTests | None]:
         """The tests of the fragments in depth range."""
         _, keeps, stored = self.depths
         start = StartBuffers(self.start.depth.ravel(), self.start.primitive.ravel().astype(np.int64))
@@ -220,7 +219,7 @@ class TraceSource:
         )
 
     @property
-    def ray_tests(self) -> RayTests | ScanLines | None:
+    def exact_tests(self) -> ExactTests | None:
         """How the fragments in depth range were compared exactly; ``None``: they were not."""
         return self._visibility_tests[1]
 
@@ -241,8 +240,8 @@ class TraceSource:
     @property
     def drawn(self) -> Integers:
         """(D,) int64, the fragments that pass, in the order in which they are drawn."""
-        if isinstance(self.ray_tests, ScanLines) and self.ray_tests.segments.is_layered:
-            return np.flatnonzero(self.depths[1])[self.ray_tests.drawn]
+        if self.exact_tests is not None and self.exact_tests.turn is not None:
+            return np.flatnonzero(self.depths[1])[self.exact_tests.turn]
         return np.flatnonzero(self.depth_tests.passes)
 
     @property

@@ -7,7 +7,6 @@ sample 0 under the usual name; of other buffers the sample written last is what 
 
 from collections.abc import Callable
 from dataclasses import replace
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 from core.antialiasing.sampling import ROTATED_GRID, grid_positions
 from core.coverage.edges import edge_value
 from core.coverage.traced_rows import occurrence
+from core.lazy_import import imported
 from core.records.arrays import Floats, Integers
 from core.records.steps import Steps, ends_of
 from core.resolved import resolve
@@ -244,14 +244,10 @@ def _sample_columns(sample: Integers, position: Floats) -> dict[str, NDArray[Any
 
 # What traces each stage.
 
-ORDERED = ("painters", "bsp")
-"""Methods of visibility whose order has rows of its own, before those of the depth test."""
-
 
 def tracer_of(stage: str) -> Callable[[TraceSource], StageTrace]:
     """Return the function that traces a stage."""
-    module, _, name = stage_of(stage).tracer.rpartition(".")
-    found: Callable[[TraceSource], StageTrace] = getattr(import_module(module), name)
+    found: Callable[[TraceSource], StageTrace] = imported(stage_of(stage).tracer)
     return found
 
 
@@ -267,11 +263,10 @@ def trace_stage(source: TraceSource, name: str) -> StageTrace:
     Exact areas and filters have their own rows where pixels are resolved; before, the pixels' centres are followed.
     """
     found = _traced(source, name)
-    if name != "depth" or source.settings.visibility not in ORDERED:
+    if name != "depth" or source.scene.corner_count == 0 or not source.geometry.drawing.own_rows:
         return found
-    from core.visibility.traced_order import with_order  # Only sorts and trees wait for it.
-
-    return with_order(found, source)
+    ordered: StageTrace = imported(source.geometry.drawing.own_rows)(found, source)
+    return ordered
 
 
 def _traced(source: TraceSource, name: str) -> StageTrace:

@@ -342,6 +342,6 @@ def bsp(clip: Floats) -> DrawingOrder:
     tree = build_tree(clip[:])
     drawn = tree.drawn
     order = tree.triangle[drawn]
-    if len(tree.clip) == len(clip):
-        return DrawingOrder(order, False)
-    return DrawingOrder(order, False, pieces=Pieces(tree.clip[drawn], tree.shares[drawn], tree.number[drawn]))
+    is_cut = len(tree.clip) > len(clip)
+    pieces = Pieces(tree.clip[drawn], tree.shares[drawn], tree.number[drawn]) if is_cut else None
+    return DrawingOrder(order, False, pieces=pieces, own_rows="core.visibility.traced_order.with_tree")

@@ -81,4 +81,5 @@ def sums_of_depths(clip: Floats) -> tuple[Floats, Floats]:
 def painters(clip: Floats) -> DrawingOrder:
     """Draw from far to near by the mean depth of the corners; level ones stay in drawing order."""
     _, distance = sums_of_depths(clip)
-    return DrawingOrder(np.argsort(-distance, kind="stable"), False)
+    order = np.argsort(-distance, kind="stable")
+    return DrawingOrder(order, False, own_rows="core.visibility.traced_order.with_sort")

@@ -32,13 +32,15 @@ closest surface.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from math import inf, isfinite, lcm
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.methods import method
 from core.records.arrays import Flags, Floats, Integers
 from core.records.primitives import DrawingOrder
+from core.visibility.exact_case import ExactCase, ExactTests
 
 if TYPE_CHECKING:
     from core.visibility.rays_in_tree import TreeWalk
@@ -221,17 +223,18 @@ FIRST, BY_FLOATS, EXACTLY = 0, 1, 2
     exact_for="opaque triangles in any order: depths are compared exactly, without a depth buffer",
     breaks_where="coplanar triangles: a tie keeps the first one drawn",
     takes=("depth_test_time",),
-    traits="rays",
+    traits="exact",
 )
 def ray_casting(clip: Floats) -> DrawingOrder:
     """Take the triangles as given; a hit is kept where it is nearer than the nearest so far."""
-    return DrawingOrder(np.arange(len(clip)), True, casts_rays=True)
+    return DrawingOrder(np.arange(len(clip)), True, decide_hits)
 
 
 @dataclass(frozen=True, eq=False)
 class RayTests:
     """F hits of rays in drawing order."""
 
+    tracer: ClassVar[str] = "core.visibility.traced.trace_rays"
     before: Integers
     """(F,) int64, the triangle that was the nearest so far, -1: none."""
     passes: Flags
@@ -242,6 +245,32 @@ class RayTests:
     """(F,) int64: 1 nearer, -1 farther, 0 equally near, which is not nearer."""
     walk: "TreeWalk | None" = None
     """What rays have asked in a tree of boxes; ``None``: they ask all triangles."""
+
+    @property
+    def work(self) -> dict[str, int]:
+        """Nothing but one comparison for each hit."""
+        return {}
+
+    @property
+    def turn(self) -> None:
+        """Hits are drawn as they stand."""
+
+    def told(self) -> tuple[NDArray[Any], dict[str, Integers]]:
+        """Return what is said of F hits of one pixel in its history: a key (F,) each, and its numbers (F,)."""
+        keys = np.array(["ray-tied", "ray-nearer", "ray-farther"])
+        if self.walk is None:
+            return keys[self.sign], {}
+        walk = self.walk
+        found = keys[np.where(walk.wins, 1, np.where(walk.ties, 0, -1))]
+        numbers = {"against": np.where(walk.wins, -1, walk.winner), "node": walk.hidden_in}
+        return np.where(walk.hidden_in >= 0, "ray-hidden", found), numbers
+
+
+def decide_hits(case: ExactCase) -> tuple[Flags, ExactTests]:
+    """Compare each hit with the nearest of its pixel so far."""
+    initial = case.initial.take(case.stacks.pixel)
+    tests = run_ray_tests(case.planes, case.triangle, *case.rays, case.stacks.layers(), initial, case.writes)
+    return tests.passes, tests
 
 
 def run_ray_tests(

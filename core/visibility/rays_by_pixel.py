@@ -19,6 +19,7 @@ from core.methods import method
 from core.records.arrays import Floats
 from core.records.primitives import DrawingOrder
 from core.records.steps import PIXEL_BY_PIXEL
+from core.visibility.ray_casting import decide_hits
 
 Pixel = TypeVar("Pixel")
 Triangle = TypeVar("Triangle")
@@ -52,8 +53,8 @@ def cast_all_rays(
     breaks_where="large meshes: every ray asks every triangle; coplanar triangles: a tie keeps the first one drawn",
     takes=("depth_test_time",),
     listing=cast_all_rays,
-    traits="rays",
+    traits="exact",
 )
 def ray_casting_by_pixel(clip: Floats) -> DrawingOrder:
     """Take the triangles as given, for one ray after another."""
-    return DrawingOrder(np.arange(len(clip)), True, True, PIXEL_BY_PIXEL, asks_all=True)
+    return DrawingOrder(np.arange(len(clip)), True, decide_hits, PIXEL_BY_PIXEL, asks_all=True)

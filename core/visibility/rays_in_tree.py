@@ -15,7 +15,7 @@ acceleration structure, but the constant is very high.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf, isnan, nan
 from typing import TypeVar
 
@@ -26,7 +26,8 @@ from core.records.arrays import Flags, Floats, Integers
 from core.records.box_tree import BoxTree
 from core.records.primitives import DrawingOrder
 from core.records.steps import RowOrder
-from core.visibility.ray_casting import RayPlanes
+from core.visibility.exact_case import ExactCase, ExactTests
+from core.visibility.ray_casting import RayPlanes, decide_hits
 
 ROUNDING = 2.0**-44
 """Bound of the rounding in a slab, as a share of the sizes of all that it is made from: 512 roundings."""
@@ -215,11 +216,25 @@ def walk_tree(
     "blending: only the nearest surface of each pixel is left",
     takes=("hierarchy",),
     listing=walk_tree,
-    traits="rays",
+    traits="exact",
 )
 def ray_casting_with_tree(clip: Floats) -> DrawingOrder:
     """Take the triangles in the order in which each ray meets their boxes."""
-    return DrawingOrder(np.arange(len(clip)), True, True, row_order=RAY_BY_RAY, walks_tree=True)
+    return DrawingOrder(np.arange(len(clip)), True, decide_in_tree, RAY_BY_RAY, walks_tree=True)
+
+
+def decide_in_tree(case: ExactCase) -> tuple[Flags, ExactTests]:
+    """Keep of the fragments the nearest of each pixel alone; where no tree holds them, as rays that ask all."""
+    if case.tree is None:
+        return decide_hits(case)
+    from core.visibility.tree_walk import walk_rays  # Only rays in a tree wait for it.
+
+    pixels, first = np.unique(case.pixel, return_index=True)
+    m, n = case.rays
+    of_ray, initial = (pixels, m.take(first), n.take(first)), case.initial.take(pixels)
+    fragments = case.pixel, case.triangle
+    tests, walk = walk_rays(case.tree, case.planes, *fragments, of_ray, initial, case.keeps_visits)
+    return walk.wins, replace(tests, walk=walk)
 
 
 @dataclass(frozen=True, eq=False)

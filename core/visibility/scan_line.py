@@ -22,16 +22,18 @@ I. Sutherland, R. Sproull, R. Schumacker, *A characterization of ten hidden-surf
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.coverage.pixel_runs import expand
 from core.depth.depth import stack_fragments
 from core.methods import method
 from core.records.arrays import Flags, Floats, Integers, cached_property
 from core.records.primitives import DrawingOrder
-from core.visibility.ray_casting import RayPlanes, RayTests, compare_hits, run_ray_tests
+from core.visibility.exact_case import ExactCase, ExactTests
+from core.visibility.ray_casting import RayPlanes, RayTests, compare_hits, decide_hits, run_ray_tests
 
 ALONE, SAME, PAIR, HALVED = 0, 1, 2, 3
 """What becomes of a segment: one triangle is live, the same is nearest at both ends, two pixels with a nearest
@@ -110,6 +112,7 @@ class Segments:
 class ScanLines:
     """What the method decides of F fragments."""
 
+    tracer: ClassVar[str] = "core.visibility.traced_scan_line.trace_scan_lines"
     spans: Spans
     segments: Segments
     drawn: Integers
@@ -132,36 +135,38 @@ class ScanLines:
         sign, _ = compare_hits(self.planes, self.triangle, self.seen, self.m, self.n)
         return np.where(self.passes, 1, np.minimum(sign, 0))
 
+    @property
+    def work(self) -> dict[str, int]:
+        """``depths computed``, of every live triangle at every centre that is compared at; what is sorted for it."""
+        return {
+            "depths computed": self.segments.evaluations,
+            "span ends sorted": 2 * len(self.spans.row),
+            "segments": int((self.segments.depth == 0).sum()),
+            "halvings": int((self.segments.verdict == HALVED).sum()),
+        }
 
-def find_scan_lines(
-    planes: RayPlanes,
-    triangle: Integers,
-    primitive: Integers,
-    column: Integers,
-    row: Integers,
-    pixel: Integers,
-    initial: Integers,
-    center: float,
-    is_layered: bool = False,
-) -> ScanLines:
-    """Decide of F fragments in drawing order which is seen at every pixel, and which are drawn.
+    @property
+    def turn(self) -> Integers | None:
+        """``drawn`` where several are drawn of one pixel."""
+        return self.drawn if self.segments.is_layered else None
 
-    Parameters
-    ----------
-    triangle, primitive : (F,) int64
-        Number of the triangle in the scene, and of what is drawn of it.
-    column, row : (F,) int64
-    pixel : (F,) int64
-        Index of the fragment's pixel in ``initial``.
-    initial : (U,) int64
-        The triangle that is seen at pixels before, -1: none.
-    center : float
-        Where in a pixel its centre lies: 0 or 1/2.
-    is_layered : bool
-        Whether all that is live is drawn, from back to front, for it may show what is behind it.
+    def told(self) -> tuple[NDArray[Any], dict[str, Integers]]:
+        """Return what is said of F fragments of one pixel: against the triangle that is seen, or the layer behind."""
+        if self.segments.is_layered:
+            behind = np.full(len(self.triangle), -1)
+            behind[self.drawn[1:]] = self.triangle[self.drawn[:-1]]
+            return np.where(behind >= 0, "scan-layer", "scan-farthest"), {"against": behind}
+        return np.array(["scan-tied", "scan-nearest", "scan-farther"])[self.sign], {"against": self.seen}
+
+
+def find_scan_lines(case: ExactCase) -> ScanLines:
+    """Decide of F fragments which is seen at every pixel, and which are drawn.
+
+    Where they are mixed with what is there, all that is live is drawn, from back to front.
     """
-    spans = find_spans(triangle, primitive, column, row, pixel, initial)
-    segments = find_segments(spans, planes, center, is_layered)
+    triangle, pixel = case.triangle, case.pixel
+    spans = find_spans(case)
+    segments = find_segments(spans, case.planes, case.center, case.is_mixed)
 
     # The pixels of segments that are decided: each end has half of a pair, the whole of any other.
     done = np.flatnonzero(segments.verdict != HALVED)
@@ -177,10 +182,9 @@ def find_scan_lines(
     passes = np.zeros(len(triangle), bool)
     passes[drawn] = True
     # Of several layers of a pixel, the last one's number stays.
-    there = initial.copy()
+    there = case.initial.copy()
     there[pixel[drawn]] = triangle[drawn]
-    m, n = planes.rays(column, row, center)
-    return ScanLines(spans, segments, drawn, passes, there.take(pixel), planes, triangle, m, n)
+    return ScanLines(spans, segments, drawn, passes, there.take(pixel), case.planes, triangle, *case.rays)
 
 
 def _layers_of(spans: Spans, segments: Segments, done: Integers) -> tuple[Integers, Integers]:
@@ -201,15 +205,10 @@ def _layers_of(spans: Spans, segments: Segments, done: Integers) -> tuple[Intege
     return half[is_drawn], span[is_drawn]
 
 
-def find_spans(
-    triangle: Integers,
-    primitive: Integers,
-    column: Integers,
-    row: Integers,
-    pixel: Integers,
-    initial: Integers,
-) -> Spans:
-    """Return the spans of fragments (F,), and before them those of the picture that is there; see `find_scan_lines`."""
+def find_spans(case: ExactCase) -> Spans:
+    """Return the spans of fragments (F,), and before them those of the picture that is there."""
+    triangle, pixel, initial = case.triangle, case.pixel, case.initial
+    primitive, column, row = case.fragments.primitive, case.fragments.column, case.fragments.row
     fragment = np.arange(len(triangle))
     is_held = initial.take(pixel) >= 0
     if is_held.any():
@@ -429,8 +428,16 @@ def draw_rows(
     exact_for="opaque and blended triangles in any order, crossing ones too: exact depths where spans begin and end",
     breaks_where="blended triangles and exact areas: pieces of pixels are not sorted",
     listing=draw_rows,
-    traits="scan-lines",
+    traits="exact",
 )
 def scan_line(clip: Floats) -> DrawingOrder:
     """Take the triangles as given; of each pixel the nearest alone is kept, or all from back to front where blended."""
-    return DrawingOrder(np.arange(len(clip)), True, casts_rays=True)
+    return DrawingOrder(np.arange(len(clip)), True, decide_by_rows)
+
+
+def decide_by_rows(case: ExactCase) -> tuple[Flags, ExactTests]:
+    """Decide row by row; lines have no spans: each of their pixels is compared for itself."""
+    if case.is_outlined:
+        return decide_hits(case)
+    found = find_scan_lines(case)
+    return found.passes, found

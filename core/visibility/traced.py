@@ -17,6 +17,8 @@ from core.visibility.ray_casting import (
     hit_value,
 )
 from core.visibility.rays_in_tree import TreeWalk
+from core.visibility.traced_by_pixel import with_misses
+from core.visibility.traced_in_tree import with_boxes
 
 _HIT = (
     Operation("hit", "value", {"nearness": "value"}, ("depth",)),
@@ -43,7 +45,17 @@ RAY_OPERATIONS: dict[str, tuple[Operation, ...]] = {
 
 
 def trace_rays(source: TraceSource, rays: RayTests) -> StageTrace:
-    """Return one row for every pixel and candidate triangle; ``rays`` has those (F,) in depth range."""
+    """Return one row for every pixel and candidate triangle, and those of what rays ask besides.
+
+    ``rays`` has the hits (F,) in depth range.
+    """
+    found = _trace_hits(source, rays)
+    if source.geometry.drawing.asks_all:
+        found = with_misses(source, found)
+    return found if rays.walk is None else with_boxes(source, found, rays.walk)
+
+
+def _trace_hits(source: TraceSource, rays: RayTests) -> StageTrace:
     fragments, tests = source.fragments, source.depth_tests
     depth, keeps, stored = source.depths
     kinds = tuple(RAY_OPERATIONS)

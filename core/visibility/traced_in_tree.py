@@ -9,7 +9,6 @@ from core.records.listing import Operation, listing
 from core.records.steps import ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import InsertedRows, StageTrace, insert_rows
-from core.visibility.ray_casting import RayTests
 from core.visibility.rays_in_tree import BEHIND, MISSED, OPENED, TreeWalk, Visits, meet_box, slabs, walk_tree
 
 _SLABS = tuple(
@@ -46,10 +45,8 @@ HIDDEN: dict[str, tuple[Operation, ...]] = {"tree-hidden": (Operation("hide", ""
 """What is said of a triangle that covers a pixel, and that the ray does not ask."""
 
 
-def with_boxes(source: TraceSource, found: StageTrace, rays: RayTests) -> StageTrace:
+def with_boxes(source: TraceSource, found: StageTrace, walk: TreeWalk) -> StageTrace:
     """Return the rows of hits in the order in which rays ask them, with one before them for each box."""
-    walk = rays.walk
-    assert walk is not None
     assert walk.visits is not None
     _, keeps, _ = source.depths
     count = found.steps.row_count

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.methods import is_registered
 from core.records.arrays import Floats, Integers, cached_property
 from core.records.listing import RETURN, Listing, Operation, listing
 from core.stages.fragment_color import vertex_stage
@@ -71,35 +70,33 @@ SIDES = ("on", "front", "back", "cut")
 Columns = dict[str, NDArray[Any]]
 
 
-def with_order(found: StageTrace, source: TraceSource) -> StageTrace:
-    """Return the trace of the depth test with the rows of the drawing order before it, where there are any."""
-    chosen = source.settings.visibility
-    if source.scene.corner_count == 0:
-        return found
-    clip = corners_of(source)
-    extra: dict[str, Any]
-    if is_registered(chosen, "painters"):
-        kinds, rows, extra = (
-            SORT_OPERATIONS,
-            sort_columns(clip, source.triangle),
-            {"sorted": SortedTriangles(clip)},
-        )
-        listings = dict.fromkeys(kinds, listing(far_to_near))
-    elif is_registered(chosen, "bsp"):
-        tree = build_tree(clip)
-        kinds, rows, extra, listings = (
-            TREE_OPERATIONS,
-            tree_columns(tree, source.triangle),
-            {"tree": tree},
-            tree_listings(),
-        )
-    else:
-        return found
+def with_sort(found: StageTrace, source: TraceSource) -> StageTrace:
+    """Return the trace of the depth test with the rows of the painter's sort before it."""
+    clip, listings = corners_of(source), dict.fromkeys(SORT_OPERATIONS, listing(far_to_near))
+    rows = sort_columns(clip, source.triangle)
+    return _with_order(found, source, SORT_OPERATIONS, rows, listings, {"sorted": SortedTriangles(clip)})
+
+
+def with_tree(found: StageTrace, source: TraceSource) -> StageTrace:
+    """Return the trace of the depth test with the rows of a BSP tree before it."""
+    tree = build_tree(corners_of(source))
+    rows = tree_columns(tree, source.triangle)
+    return _with_order(found, source, TREE_OPERATIONS, rows, tree_listings(), {"tree": tree})
+
+
+def _with_order(
+    found: StageTrace,
+    source: TraceSource,
+    operations: Mapping[str, tuple[Operation, ...]],
+    rows: Columns,
+    listings: Mapping[str, Listing],
+    extra: dict[str, Any],
+) -> StageTrace:
     kind, triangle, group = rows.pop("kind"), rows.pop("triangle"), rows.pop("group")
     if not len(kind):
         return found
-    before = replace(found, method=f"visibility={chosen}", extra={**found.extra, **extra})
-    return put_before(before, kinds, kind, triangle, group, rows, listings)
+    before = replace(found, method=f"visibility={source.settings.visibility}", extra={**found.extra, **extra})
+    return put_before(before, operations, kind, triangle, group, rows, listings)
 
 
 def put_before(

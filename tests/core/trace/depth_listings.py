@@ -35,7 +35,7 @@ def check_rays(traced: Trace) -> None:
 def check_depth(traced: Trace) -> None:
     found = traced.stage("depth")
     c = found.columns
-    if traced.source.geometry.drawing.casts_rays:
+    if traced.source.geometry.drawing.decides is not None:
         check_rays(traced)
         return
     if "key" in c:

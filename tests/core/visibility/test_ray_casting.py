@@ -195,4 +195,4 @@ def test_the_nearest_triangle_is_the_reference() -> None:
 def test_drawn_as_given() -> None:
     drawing = table.get("visibility", "ray-casting").function(np.zeros((3, 3, 4)))
     assert drawing.order.tolist() == [0, 1, 2]
-    assert drawing.casts_rays
+    assert drawing.decides is not None

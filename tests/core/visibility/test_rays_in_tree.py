@@ -132,7 +132,7 @@ def test_rows_fold_to_the_picture_and_less_is_asked(traced) -> None:
     scene = replace(make_scene("sphere"), size=(16, 12))
     for hierarchy in ("bvh", "bvh-area", "octree"):
         run = trace(scene, Settings(visibility="ray-casting-tree", hierarchy=hierarchy))
-        walk = run.source.ray_tests.walk
+        walk = run.source.exact_tests.walk
         assert walk.asked_count.mean() < 120
         assert walk.box_count.mean() < 220
 
@@ -140,7 +140,7 @@ def test_rows_fold_to_the_picture_and_less_is_asked(traced) -> None:
 def test_the_history_of_a_pixel_names_the_node_that_hides() -> None:
     scene = replace(make_scene("cube"), size=(32, 24))
     run = trace(scene, Settings(visibility="ray-casting-tree", leaf_size=2))
-    hidden = run.source.ray_tests.walk.hidden_in >= 0
+    hidden = run.source.exact_tests.walk.hidden_in >= 0
     assert hidden.any()
     at = int(np.flatnonzero(run.source.depths[1])[hidden][0])
     fragments = run.source.fragments

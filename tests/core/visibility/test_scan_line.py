@@ -37,7 +37,7 @@ def assert_alike(scene, settings: Settings = LINES, region=None) -> None:
 
 def scan_lines(scene, settings: Settings = LINES, **chosen) -> ScanLines:
     """Return what the method decides of a scene."""
-    found = trace(scene, settings, **chosen).source.ray_tests
+    found = trace(scene, settings, **chosen).source.exact_tests
     assert isinstance(found, ScanLines)
     return found
 
