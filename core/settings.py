@@ -224,6 +224,23 @@ class Settings:
         taken_by="antialiasing",
         otherwise="Only several samples per pixel are filtered.",
     )
+    presentation: str = choice(
+        "none",
+        "Presentation",
+        "resolve",
+        "core.framebuffer.presentation",
+        is_look=True,
+    )
+    flush: str = choice(
+        "by-row",
+        "Flushing",
+        "resolve",
+        "core.framebuffer.flushing",
+        asks=("listing",),
+        taken_by="presentation",
+        otherwise="Only pictures that are presented on a screen are flushed.",
+        is_look=True,
+    )
     leaf_size: int = number_field(
         8,
         "Leaf size",
@@ -274,6 +291,26 @@ class Settings:
         otherwise="Only supersampling with n x n samples has a sample count.",
     )
     """Samples on a side of a pixel (antialiasing ``ssaa-n``), 1 to 8."""
+    drawing_time: int = number_field(
+        20,
+        "Time to draw a picture",
+        100,
+        (5, 8, 10, 16, 20, 24, 33, 50),
+        "{0} ms",
+        taken_by="presentation",
+        otherwise="Only pictures that are presented on a screen take time.",
+    )
+    """Milliseconds of the model that the renderer needs for a picture (presentation), 1 to 100."""
+    refresh_time: int = number_field(
+        16,
+        "Time of a refresh",
+        100,
+        (4, 7, 8, 10, 16, 20),
+        "{0} ms",
+        taken_by="presentation",
+        otherwise="Only a screen is refreshed.",
+    )
+    """Milliseconds of the model between two refreshes of the screen (presentation), 1 to 100."""
 
     def __post_init__(self) -> None:
         for family in families():

@@ -165,6 +165,16 @@ def crossing_glass() -> ClipScene:
     return ClipScene(opaque.clip, colors, opaque.size)
 
 
+def moving_bar() -> ClipScene:
+    """An upright bar on a screen of 16 rows: where it is torn, its sides have a step."""
+    corners = [[(6, 0), (10, 0), (10, 16)], [(6, 0), (10, 16), (6, 16)]]
+    places = np.array(corners, float)
+    clip = np.stack(
+        [window_triangle(x, y, np.full(3, 0.5), np.ones(3), (24, 16)) for x, y in places.transpose(0, 2, 1)]
+    )
+    return ClipScene(clip, np.tile(linear_color(FACE_COLORS[1]), (2, 3, 1)), (24, 16))
+
+
 def four_layers() -> ClipScene:
     """Four layers over the whole picture, drawn from near to far: an early depth test shades the first one alone."""
     size = (32, 24)
@@ -320,6 +330,14 @@ CATALOGUE = (
         four_layers,
         RunPlace("shade", 'kind == "skipped"'),
         {"depth_test_time": "early"},
+    ),
+    BuiltInScene(
+        "two-buffers",
+        "Two buffers",
+        "A bar moves to the right while a screen reads its rows: swapped at once, its sides are torn.",
+        moving_bar,
+        RunPlace("resolve", 'kind == "scan" and refresh == 1 and line == 4'),
+        {"presentation": "double-at-once"},
     ),
     BuiltInScene(
         "z-fighting",

@@ -103,6 +103,7 @@ SHOWN_BY = {
     "shading": "cube",
     "polygon_clipping": "weiler-atherton",
     "polygon_fill": "pentagram",
+    **dict.fromkeys(("presentation", "flush"), "two-buffers"),
 }
 """Families to the scene in which their methods do something; ``single-triangle`` for the others."""
 TOGETHER = {
@@ -110,6 +111,7 @@ TOGETHER = {
     "line_clipping": {"polygon_mode": "wireframe"},
     "provoking": {"interpolation": "flat"},
     "resolve_filter": {"antialiasing": "ssaa-4"},
+    "flush": {"presentation": "double"},
 }
 """Other settings with which the methods of a family do something."""
 NO_LISTING = "It has no listing."

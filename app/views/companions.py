@@ -17,7 +17,7 @@ from core.trace import StageTrace
 from core.transform.traced import CLIP, SPACES, WINDOW, spaces_reached
 from widgets.basics.controls import column_layout, text_label
 from widgets.grid.layers import GridBuffer
-from widgets.grid.marks import StepMark
+from widgets.grid.marks import StepMark, box_lines
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.inspector.step_table import StepTableView
 from widgets.space.diagram import CUBE, Diagram, Spot, Stroke
@@ -273,11 +273,57 @@ class NewDepths(Companion):
         self.grid.show_step(StepMark(stage.pixel[[row]] - np.array(origin)) if has_pixel else StepMark())
 
 
+class ScreenBeside(Companion):
+    """The screen, beside the buffer that is drawn into, with the row that was read last."""
+
+    name = "screen"
+    is_alike = True
+
+    def make_widget(self) -> QWidget:
+        """Return the grid below its title."""
+        pane = QWidget()
+        self.grid = PixelGrid(pane)
+        self._title = text_label("", pane, role="muted")
+        layout = column_layout(pane, 4)
+        layout.addWidget(self._title)
+        layout.addWidget(self.grid, 1)
+        return pane
+
+    def is_wanted(self, moment: Moment) -> bool:
+        """Return whether the picture is presented."""
+        return "scan" in moment.steps.kinds
+
+    def draw(self) -> None:
+        """Show the rows that have been read, and mark the last one."""
+        stage, done = self.moment.stage_trace, self.moment.rows_done
+        raster = self.moment.trace.source.raster
+        track = next(track for track in stage.buffers if track.name == "screen")
+        buffer = GridBuffer(
+            "screen",
+            track.at(done),
+            "color",
+            origin=raster.bounds[:2],
+            known=track.known_at(done),
+        )
+        self.grid.show_buffer(buffer)
+        read = np.flatnonzero(stage.steps.kind[:done] == stage.steps.kinds.index("scan"))
+        if not len(read):
+            self._title.setText("Screen: not read yet")
+            self.grid.show_step(StepMark())
+            return
+        refresh, line = (int(stage.columns[name][read[-1]]) for name in ("refresh", "line"))
+        self._title.setText(f"Screen: refresh {refresh}, row {line} from the top")
+        height, width = track.initial.shape[:2]
+        row = height - 1 - line
+        self.grid.show_step(StepMark(lines=box_lines(0, row, width, row + 1)))
+
+
 COMPANIONS: dict[str, type[Companion]] = {
     "transform": EnteredSpace,
     **dict.fromkeys(("cull", "clip", "raster"), FillingTable),
     "shade": TextureBeside,
     "depth": NewDepths,
+    "resolve": ScreenBeside,
     "order": FillingTable,
 }
 """By stage; ``order`` takes the place of ``depth`` where the drawing order has rows and a table of its own."""

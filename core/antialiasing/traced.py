@@ -13,6 +13,7 @@ from core.antialiasing.traced_areas import PixelCuts, cuts_of, with_cuts
 from core.antialiasing.traced_fxaa import trace_filter
 from core.framebuffer.display import SRGB_LIMIT, encode_linear, encode_srgb, srgb, srgb_byte
 from core.framebuffer.traced import trace_blend
+from core.framebuffer.traced_presentation import with_presentation
 from core.pipeline import draw
 from core.records.arrays import Flags, Floats, Integers, Singles
 from core.records.frame import StageCount
@@ -65,6 +66,11 @@ class Parts(NamedTuple):
 
 
 def trace_resolve(source: TraceSource) -> StageTrace:
+    """Return one row for every pixel of the raster, to sRGB bytes, and the rows of the presentation of the picture."""
+    return with_presentation(_trace_pixels(source), source)
+
+
+def _trace_pixels(source: TraceSource) -> StageTrace:
     """Return one row for every pixel of the raster: its samples to a colour, linear colour to sRGB bytes."""
     parts, cuts, kind, method = None, None, "encode", ""
     if resolve(source.settings).sampling.is_filtered:

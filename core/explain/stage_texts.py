@@ -11,7 +11,7 @@ from core.records.steps import Level
 from core.records.words import TRIANGLES, Nouns, counted, nouns
 from core.settings import FIELDS
 from core.stages.declared import STAGES, Stage, stage_of
-from core.trace.stage_trace import MARKS
+from core.trace.stage_trace import MARKS, PRESENTED
 
 Account = Callable[[Mapping[str, int], Nouns], list[str]]
 """Makes of the counts of rows and marks what a larger step did, in a few parts; takes what is drawn, too."""
@@ -93,6 +93,20 @@ def _scan_line_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
     return [counted(counts["rows"], "step"), f"{counted(counts['covered'], _place(counts))} drawn", *ties]
 
 
+def _resolve_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
+    pixels = counts["rows"] - sum(counts[name] for name in PRESENTED)
+    encoded = [f"{counted(pixels, 'pixel')} encoded for the display"]
+    done = {
+        "written": ("row written into a buffer", "rows written into buffers"),
+        "flushed": ("picture flushed", "pictures flushed"),
+        "wait": ("wait for a refresh to end", "waits for a refresh to end"),
+        "swap": ("swap", "swaps"),
+        "scan": ("row read by the screen", "rows read by the screen"),
+    }
+    parts = [counted(counts[name], *done[name]) for name in PRESENTED if counts[name]]
+    return [*(encoded if pixels or not parts else []), *parts]
+
+
 def _rows_account(noun: str, done: str) -> Account:
     """Return the account of a stage that does one thing to every row."""
     return lambda counts, _: [
@@ -155,7 +169,7 @@ ACCOUNTS: Mapping[str, Account] = {
     "shade": _shade_account,
     "depth": _depth_account,
     "blend": _rows_account("colour", "written"),
-    "resolve": _rows_account("pixel", "encoded for the display"),
+    "resolve": _resolve_account,
 }
 """The accounts of all stages."""
 
@@ -223,7 +237,7 @@ def summary_sentence(
     unit : str, optional
         What the step is where rows are not listed triangle by triangle, see `core.records.steps.RowOrder.unit`.
     """
-    known = {name: counts.get(name, 0) for name in ("rows", "tested", "samples", "boxes", *MARKS)}
+    known = {name: counts.get(name, 0) for name in ("rows", "tested", "samples", "boxes", *PRESENTED, *MARKS)}
     family, _, name = method.partition("=")
     drawn = nouns(corner_count)
     account_of, group = ACCOUNTS[stage], drawn.text(stage_of(stage).group)

@@ -9,6 +9,7 @@ from core.coverage.measured import COVERAGE, FILL, ORIENTATION, POLYGON_CLIPPING
 from core.depth.measured import DEPTH_STEPS
 from core.depth.measured_early import DEPTH_TEST_TIME
 from core.depth.measured_order import CLIPPING, CULL, DEPTH, VISIBILITY
+from core.framebuffer.measured_presentation import FLUSHING, PRESENTATION
 from core.interpolation.measured import INTERPOLATION
 from core.lines.measured import LINE
 from core.lines.measured_clipping import LINE_CLIPPING
@@ -39,6 +40,8 @@ OWN = (
     CULL,
     DEPTH_TEST_TIME,
     HIERARCHY,
+    PRESENTATION,
+    FLUSHING,
 )
 """Studies with work and references of their own; those whose family is not in the table yet are not shown."""
 

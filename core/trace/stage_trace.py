@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 Value = float | int | bool | str | NDArray[Any]
 MARKS = ("covered", "rejected", "tie", "nan", "depth-failed")
 """Kinds of marks on the timeline."""
+PRESENTED = ("written", "flushed", "wait", "swap", "scan")
+"""Kinds of rows of a presentation, which summaries count one by one."""
 KEPT_EXPLANATIONS = 16
 """Of the last steps that were asked for: all that is said of a step is made from the same one, once."""
 
@@ -228,6 +230,9 @@ class StageTrace:
         counts = {"rows": end - first, "tested": tested, "samples": int("sample" in self.columns)}
         boxes = int(np.count_nonzero(self.triangle[first:end] < 0)) if "node" in self.columns else 0
         counts |= {"boxes": boxes} if boxes else {}
+        for name in PRESENTED if "scan" in self.steps.kinds else ():
+            number = self.steps.kinds.index(name)
+            counts[name] = int(np.count_nonzero(self.steps.kind[first:end] == number))
         for name, flags in self.marks.items():
             counts[name] = int(np.count_nonzero(flags[first:end]))
         return counts

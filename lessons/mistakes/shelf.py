@@ -9,6 +9,7 @@ from lessons.mistakes import (
     depths,
     fragments,
     planes,
+    presenting,
     scan_conversion,
     scan_lines,
     shaders,
@@ -47,6 +48,7 @@ RULES: dict[str, WrongRule] = {
         boxes,
         smoothing,
         visible_work,
+        presenting,
     )
     for rule in module.RULES
 }

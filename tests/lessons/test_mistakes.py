@@ -11,6 +11,7 @@ from lessons.mistakes import (
     depths,
     fragments,
     planes,
+    presenting,
     scan_conversion,
     scan_lines,
     smoothing,
@@ -45,7 +46,7 @@ def test_a_wrong_formula_shows_in_one_place_and_hides_in_another(rule: WrongRule
 def test_names_are_unique_and_unknown_ones_refused() -> None:
     runs = {clipping, coverage, depths, scan_conversion, fragments, lines, textures}
     formulas = {boxes, cutting, depths, planes, scan_conversion, scan_lines, smoothing}
-    formulas |= {surfaces, textures, transforms, visible_work}
+    formulas |= {surfaces, textures, transforms, visible_work, presenting}
     count = sum(len(module.TWINS) for module in runs) + sum(len(module.RULES) for module in formulas)
     assert len(MISTAKES) == count + len(SHADERS)
     with pytest.raises(ValueError, match="expected a mistake such as corner-for-center"):

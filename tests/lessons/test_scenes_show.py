@@ -110,6 +110,13 @@ CLAIMS = {
         not unlike(s, depth_test_time="late")
         and np.sum(s.run.stage("shade").marks["depth-failed"]) == 3 * 768
     ),
+    "two-buffers": lambda s: (
+        np.sum(
+            (s.column("resolve", "above") >= 0)
+            & (s.column("resolve", "above") != s.column("resolve", "picture"))
+        )
+        == 3
+    ),
     "z-fighting": lambda s: unlike(s, depth="z-24") > 300 and unlike(s, depth="z-16") == 0,
     "textured-floor": lambda s: unlike(s, interpolation="affine") > 1000,
     "lit-floor": lambda s: (brightest(s), brightest(s, shading="gouraud")) == (0.787, 0.221),

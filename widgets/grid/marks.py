@@ -133,6 +133,12 @@ _RING = 9.0
 """Radius of the ring around a point, in widget pixels."""
 
 
+def box_lines(left: float, low: float, right: float, high: float) -> NDArray[np.float64]:
+    """Return (4, 2, 2) the sides of a box: bottom, right, top, left."""
+    corners = np.array([[left, low], [right, low], [right, high], [left, high]], float)
+    return np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
+
+
 @dataclass(frozen=True, eq=False)
 class StepMark:
     """What the step just done was about, in the columns and rows of a grid."""

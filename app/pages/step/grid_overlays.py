@@ -17,7 +17,7 @@ from core.stages.primitives import OutlineClip, region_in_pixels
 from core.trace import StageTrace, Trace
 from core.transform.traced import WINDOW, spaces_reached
 from widgets.grid.layers import CellMark, GridBuffer, MaskOverlay, Overlay, SegmentOverlay
-from widgets.grid.marks import StepMark
+from widgets.grid.marks import StepMark, box_lines
 
 if TYPE_CHECKING:
     from lessons.exercises.answers.marked import Pixel, PixelAnswer, Pixels
@@ -49,7 +49,7 @@ def step_mark(step: Step) -> StepMark:
     pixels = pixels[pixels[:, 0] >= 0]
     if len(pixels) > HIGHLIGHT_LIMIT or (len(pixels) and cursor.level <= Level.TRIANGLE):
         low, high = pixels.min(axis=0) - origin, pixels.max(axis=0) + 1 - origin
-        return StepMark(lines=_box(*low, *high))
+        return StepMark(lines=box_lines(*low, *high))
     if len(pixels):
         return StepMark(pixels - origin, trail=_trail(trace, row) - origin)
     lines, points = _geometry_mark(run, trace, row, operation, cursor.position)
@@ -76,6 +76,12 @@ def _geometry_mark(
         rows = len(stage.triangle) // max(len(reached), 1)
         is_placed = reached[row // rows] == WINDOW
         return no_lines, _corners(trace, triangle)[[int(columns["corner"][row])]] if is_placed else no_points
+    if kind in ("written", "flushed"):
+        height, width = trace.source.raster.shape
+        first, origin = trace.source.raster.bounds[:2]
+        line = int(columns["line"][row])
+        top = origin + (height if kind == "flushed" else height - line)
+        return box_lines(first, origin + height - 1 - line, first + width, top), no_points
     if "edge_start" in columns:
         return _filled_part(stage, row), no_points
     if "region_edge" in columns:
@@ -84,7 +90,7 @@ def _geometry_mark(
         left, low, right, high = (
             float(columns[name][row]) for name in ("column", "row", "column_end", "row_end")
         )
-        box = _box(left, low, right, high)
+        box = box_lines(left, low, right, high)
         # After the first half of a box only its lower left corner is known.
         is_half = stage.steps.operations[kind][operation].name == "low" and kind != "block"
         return box[[0, 3]] if is_half else box, no_points
@@ -127,12 +133,6 @@ def _clipped_edge(trace: Trace, stage: StageTrace, row: int) -> tuple[Floats, Fl
     points = columns["point"][row][None]
     lines = np.stack(ends)
     return lines[np.isfinite(lines).all(axis=(1, 2))], points[np.isfinite(points).all(axis=1)]
-
-
-def _box(left: float, low: float, right: float, high: float) -> Floats:
-    """Return (4, 2, 2) the sides of a box: bottom, right, top, left."""
-    corners = np.array([[left, low], [right, low], [right, high], [left, high]], float)
-    return np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
 
 
 def _corners(trace: Trace, triangle: int) -> Floats:

@@ -16,6 +16,7 @@ from app.pages.step.grid_records import (
     buffers_of,
     edge_overlays,
     geometry_of,
+    is_presented,
     mask_overlays,
     outlined_triangles,
     sample_dots,
@@ -312,7 +313,7 @@ class GridPresenter(QObject):
     def _geometry_step(self) -> tuple[str, int, bool]:
         """Return what outlines depend on: the stages that move corners and drop triangles, and whose step it is."""
         moment, stage = self._moment, self._moment.cursor.stage
-        at = (stage, moment.rows_done) if stage in OUTLINING else (STAGES[-1], 0)
+        at = (stage, moment.rows_done) if stage in OUTLINING else (STAGES[-1], int(is_presented(moment)))
         return *at, moment.triangle in (-1, self._focus)
 
     def _show_outlines(self) -> None:

@@ -18,6 +18,7 @@ from core.records.primitives import own_corners
 from core.resolved import resolve
 from core.trace import BufferTrack, StageTrace, TraceSource
 from core.trace.conditions import symbols_of
+from core.trace.stage_trace import PRESENTED
 from core.transform.traced import WINDOW, is_dropped, spaces_reached
 from widgets.grid.geometry import GridGeometry
 from widgets.grid.layers import (
@@ -127,6 +128,11 @@ def grid_buffer(track: BufferTrack, rows_done: int, origin: tuple[int, int]) -> 
     )
 
 
+def is_presented(step: Step) -> bool:
+    """Return whether the step presents the finished picture: a picture that moves lies elsewhere than its corners."""
+    return step.row >= 0 and step.stage_trace.kind_of(step.row) in PRESENTED
+
+
 def geometry_of(step: Step, focus: int | None = None) -> GridGeometry:
     """Return the outlines of the traced triangles, in the columns and rows of the grid.
 
@@ -142,7 +148,7 @@ def geometry_of(step: Step, focus: int | None = None) -> GridGeometry:
     corners = vertices.all_corners[triangles].ravel()
     origin = np.array(step.origin, float)
     chosen = np.isin(geometry.assembled.triangle, triangles)
-    is_placed = spaces_reached(trace, *at)[chosen] == WINDOW
+    is_placed = (spaces_reached(trace, *at)[chosen] == WINDOW) & (not is_presented(step))
     # The triangle in focus keeps its handles: a drag may bring it back.
     is_left = ~is_dropped(trace, *at)[chosen] | (triangles == wanted)
     is_placed &= is_left[:, None]

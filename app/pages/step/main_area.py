@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QBoxLayout, QSizePolicy, QStackedWidget, QTabBar, 
 
 from app.session.moment import Moment
 from app.session.session import Session
-from app.views.companions import COMPANIONS, Companion, NewDepths
+from app.views.companions import COMPANIONS, Companion, NewDepths, ScreenBeside
 from app.views.stage_views import StageViews
 from core.stages.declared import stage_of
 from widgets.basics.accessibility import announce
@@ -90,10 +90,10 @@ class MainArea(QWidget):
         self.view_bar.tabBarClicked.connect(self._choose_view)
         theme_notifier().theme_changed.connect(self._show_beside)
         theme_notifier().theme_changed.connect(self._arrange_row)
-        new_depths = self.companions["depth"]
-        assert isinstance(new_depths, NewDepths)
-        self.grid.view_changed.connect(new_depths.grid.set_view)
-        new_depths.grid.view_changed.connect(self.grid.set_view)
+        for companion in self.companions.values():
+            if isinstance(companion, NewDepths | ScreenBeside):
+                self.grid.view_changed.connect(companion.grid.set_view)
+                companion.grid.view_changed.connect(self.grid.set_view)
 
     def _lay_out(self) -> None:
         self._row = QWidget(self)

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QLabel
+from pytestqt.qtbot import QtBot
 
 from app.session.document import open_document
 from app.session.session import Session
@@ -182,3 +183,22 @@ def test_scan_lines_have_their_active_list_beside_them(window: MainWindow) -> No
     session.set_stage("depth", 20)
     assert area.beside.isVisible()
     assert area.beside.currentWidget() is not area.companions["depth"].widget
+
+
+def test_the_screen_stands_beside_the_buffer_that_is_drawn_into(qtbot: QtBot) -> None:
+    session = Session(
+        open_document(make_scene("two-buffers"), "Two buffers", settings=Settings(presentation="triple"))
+    )
+    beside = COMPANIONS["resolve"](session)
+    qtbot.addWidget(beside.widget)
+    session.set_stage("resolve")
+    assert beside.is_wanted(session.moment)
+    beside.refresh(session.moment)
+    assert np.array_equal(beside.grid.buffer().values, session.moment.stage_trace.buffers[-1].at(10**6))
+    assert "refresh 4, row 15 from the top" in beside.widget.findChildren(QLabel)[0].text()
+    session.set_stage("resolve", 0)
+    beside.refresh(session.moment)
+    assert not beside.grid.buffer().known.any()
+    plain = Session(open_document(make_scene("two-buffers"), "Two buffers"))
+    plain.set_stage("resolve")
+    assert not beside.is_wanted(plain.moment)

@@ -49,7 +49,9 @@ ANSWERS = {
     "interpolate": lambda values: values["weights"][0] if "s" not in values else values["s"],
     "depth": lambda values: 1 - values["is_opened" if values.get("is_box") else "passes"],
     "blend": lambda values: values["after"][0],
-    "resolve": lambda values: values["bytes"][0],
+    "resolve": lambda values: (
+        values["bytes"][0] if values["column"] >= 0 else values["above"] == values["picture"]
+    ),
 }
 """What is right, by stage, from the numbers of the row."""
 OF_THE_ORDER = {

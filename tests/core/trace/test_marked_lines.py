@@ -86,6 +86,8 @@ def rare_traces() -> Iterator[Trace]:
     as_it_is = Edit("interpolation", "perspective", original("interpolation", "perspective").source)
     yield trace(SCENES["textured-clip"], apply_edit(Settings(texture_filter="trilinear"), as_it_is))
     yield trace(replace(SCENES["lit"], lights=()))
+    for way in ("by-pixel", "at-once"):
+        yield trace(SCENES["clip"], Settings(presentation="triple", flush=way), region=(0, 0, 2, 2))
     depths = np.array([[[1.0, 3, 2]], [[1.0, 2, 3]]])
     for test in DEPTH_TESTS:
         yield trace(table_scene(DepthTable(depths, np.ones((2, 4)), test)))

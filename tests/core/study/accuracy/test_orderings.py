@@ -296,3 +296,26 @@ def test_no_triangle_of_a_mesh_turns_over(steps: int) -> None:
             corners = window_mesh((256, 256), cells, seed, steps)
             (ax, ay), (bx, by) = ((corners[:, k] - corners[:, 0]).T for k in (1, 2))
             assert (ax * by > ay * bx).all()
+
+
+def test_presentation() -> None:
+    # 20 ms a picture, 16 ms a refresh, 63 refreshes: swaps at 20 k tear unless k is a multiple of 4. In a single
+    # buffer the screen overtakes the renderer once in 80 ms. Two buffers show a picture every 32 ms, three every 20 ms.
+    shown = run("presentation", drawing=20, refresh=16)
+    counts = {name: point.counts for name, point in shown.items()}
+    rates = {name: found["pictures shown in a second"] for name, found in counts.items()}
+    assert rates == {"single": 50, "double-at-once": 50, "double": 31, "triple": 49}
+    torn = {name: found["torn refreshes"] for name, found in counts.items()}
+    assert torn == {"single": 12, "double-at-once": 38, "double": 0, "triple": 0}
+    assert counts["double"]["milliseconds that the renderer waits"] == 31 * 12
+    assert shown["double-at-once"].errors["torn"] == pytest.approx(1e6 * 38 / 63)
+
+
+def test_flush() -> None:
+    ways = run("flush", height=24)
+    assert {name: point.counts["transfers"] for name, point in ways.items()} == {
+        "by-pixel": 24 * 32,
+        "by-row": 24,
+        "at-once": 1,
+    }
+    assert {point.errors["wrong-bytes"] for point in ways.values()} == {0}
