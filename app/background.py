@@ -10,6 +10,7 @@ from typing import Any
 from PySide6.QtCore import QObject, QThread, QTimer, Signal, Slot
 
 from core.numeric.large_arrays import give_back
+from core.numeric.watched import watched
 
 # Work off the GUI thread, with progress and cancel; a result that nobody waits for any more is dropped.
 
@@ -69,7 +70,8 @@ class _Worker(QThread):
         work = self._work
         del self._work
         try:
-            result = work(self.progressed.emit, self.isInterruptionRequested, self.part_done.emit)
+            with watched(None, self.isInterruptionRequested):
+                result = work(self.progressed.emit, self.isInterruptionRequested, self.part_done.emit)
         except Exception as error:
             self.failed.emit(error)
         else:

@@ -20,6 +20,7 @@ from typing import Any, NoReturn
 
 from app import __version__
 from app.usage import PROGRAM, UsageError
+from core.numeric.watched import watched
 from lessons.os_errors import problem_text
 
 # The window, opened from the command line.
@@ -205,8 +206,17 @@ def _run_command(command: Command, arguments: Sequence[str]) -> int:
     options = _parse(parser, arguments)
     if options is None:
         return 0
-    code: int = module.run(options)
+    with watched(show_work):
+        code: int = module.run(options)
     return code
+
+
+def show_work(fraction: float | None, doing: str) -> None:
+    """Say once on stderr what takes long, before it begins; a terminal shows how far it is, too."""
+    if fraction is None:
+        print(f"{PROGRAM}: {doing}", file=sys.stderr, flush=True)
+    elif sys.stderr is not None and sys.stderr.isatty():
+        print(f"\r\x1b[K{100 * fraction:.0f} %", end="\r", file=sys.stderr, flush=True)
 
 
 def _run_window(arguments: Sequence[str]) -> int:

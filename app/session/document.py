@@ -145,6 +145,11 @@ class Document:
         tree = min(self.triangle_count**2 / CUT_PER_SECOND, LONGEST_TREE) * (
             self.settings.visibility == "bsp"
         )
+        if self.settings.hierarchy != "none":
+            from core.stages.object_tree import expected_tree  # Only trees wait for it.
+
+            boxes = expected_tree(self.scene, self.triangle_count, self.settings)
+            tree += 0.0 if boxes is None else boxes.seconds
         return (
             tree
             + drawn / TRIANGLES_PER_SECOND

@@ -1,12 +1,15 @@
 """Tracing off the GUI thread where it would hold up the window: one at a time, and of those that wait the last."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 from PySide6.QtCore import QObject, Signal, Slot
 
-from app.background import Job
+from app.background import Job, Progress
 from app.session.document import Document
 from core import Trace
+from core.numeric.watched import watched
 from core.resolved import resolve
 from core.trace.incremental.draft import draft
 
@@ -60,6 +63,12 @@ def trace_drag(document: Document, stage: str, earlier: Trace) -> Trace:
     return trace
 
 
+def _traced(order: Order, progress: Progress, is_cancelled: Callable[[], bool]) -> Traced:
+    """Trace what was ordered; building a tree reports how far it is, and ends where nobody waits."""
+    with watched(progress, is_cancelled):
+        return Traced(order, trace_now(order.document, order.stage))
+
+
 class Tracing(QObject):
     """Runs orders one after another; of those that wait only the last is kept."""
 
@@ -69,6 +78,8 @@ class Tracing(QObject):
     """The exception; nothing has changed."""
     busy_changed = Signal(str)
     """What is being waited for, empty: nothing."""
+    progressed = Signal(object, str)
+    """Fraction done (``None``: not known) of what is being done."""
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -77,6 +88,7 @@ class Tracing(QObject):
         self._newest: Order | None = None
         self._job.succeeded.connect(self._succeed)
         self._job.failed.connect(self._fail)
+        self._job.progressed.connect(self.progressed)
 
     @property
     def is_busy(self) -> bool:
@@ -94,7 +106,7 @@ class Tracing(QObject):
         if self._job.is_running:
             self._waiting = order
             return
-        self._job.call(lambda: Traced(order, trace_now(order.document, order.stage)))
+        self._job.start(partial(_traced, order))
         self.busy_changed.emit(f"Tracing {order.document.title or 'the scene'}")
 
     @Slot()

@@ -34,6 +34,7 @@ from app.session.moment import cursor_at
 from app.session.tracing import Tracing, trace_now
 from app.window.appearance import Appearance
 from core import Trace
+from core.numeric.watched import watched
 from core.records.words import sentences
 from lessons.os_errors import problem_text
 from widgets.basics.message_bar import Message, MessageBar, MessageKind
@@ -68,6 +69,7 @@ class WorkProgress(QObject):
         opening.progressed.connect(self._show_progress)
         opening.ended.connect(self._end)
         tracing.busy_changed.connect(self._show_busy)
+        tracing.progressed.connect(self._show_progress)
         messages.cancel_requested.connect(self.cancel)
 
     @property
@@ -287,7 +289,8 @@ class FileActions(QObject):
         def work(progress: Progress, is_cancelled: Callable[[], bool]) -> tuple[Opened, Trace]:
             opened = open_any(target, progress, is_cancelled, allows_outside)
             stage = opened.state.stage if opened.state else opened.place.stage
-            return opened, trace_now(opened.document, stage)
+            with watched(progress, is_cancelled):
+                return opened, trace_now(opened.document, stage)
 
         self.progress.begin(f"Opening {Path(target).name}")
         self.job.start(work)

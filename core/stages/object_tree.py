@@ -1,18 +1,20 @@
 """The tree of boxes over a scene's triangles: what it is built over, where, and for whom."""
 
 from dataclasses import dataclass
-from functools import lru_cache
+from typing import TypeGuard
 
 import numpy as np
 
 from core.culling.object_culling import ObjectCulling, cull_objects, view_planes
 from core.methods import table
+from core.numeric.watched import work
 from core.records.arrays import Floats, Integers
 from core.records.box_tree import BoxTree, Objects, checked_objects
 from core.resolved import resolve
 from core.scene import AnyScene, Scene
 from core.settings import Settings, no_effect
 from core.transform.vertex_stage import VertexStage, World, place_meshes
+from core.trees.expected import BuildCost, expected_build
 from core.visibility.ray_casting import RayPlanes
 from core.visibility.rays_in_tree import TreeRays, set_up_tree_rays
 
@@ -37,27 +39,53 @@ def object_tree(scene: AnyScene, vertices: VertexStage, settings: Settings) -> O
     """
     if no_effect(settings, "hierarchy", scene):
         return None
-    rule = settings.hierarchy, settings.leaf_size, settings.octree_depth
-    if isinstance(scene, Scene) and scene.program is None and all(mesh.is_affine for mesh in scene.meshes):
-        return _tree_of_world(place_meshes(scene.meshes), *rule)
-    corners = vertices.clip[vertices.all_corners][..., [0, 1, 3]]
-    return _grown(corners, vertices.mesh, rule, is_world=False)
+    rule = _rule(settings)
+    of = place_meshes(scene.meshes) if _is_in_world(scene) else vertices
+    if (kept := _kept(of, rule)) is not None:
+        return kept
+    if isinstance(of, World):
+        grown = _grown(of.world[of.corners, :3], of.mesh, rule, is_world=True)
+    else:
+        grown = _grown(of.clip[of.all_corners][..., [0, 1, 3]], of.mesh, rule, is_world=False)
+    _last[:] = [*_last[-KEPT + 1 :], (of, rule, grown)]
+    return grown
 
 
-@lru_cache(maxsize=2)
-def _tree_of_world(world: World, hierarchy: str, leaf_size: int, octree_depth: int) -> ObjectTree:
-    """Return the tree of meshes; only the camera moves more often than they do."""
-    return _grown(
-        world.world[world.corners, :3], world.mesh, (hierarchy, leaf_size, octree_depth), is_world=True
-    )
+KEPT = 2
+_Rule = tuple[str, int, int]
+_last: list[tuple[World | VertexStage, _Rule, ObjectTree]] = []
+"""The last `KEPT` trees: only the camera moves more often than meshes do, and vertices never change."""
 
 
-def _grown(corners: Floats, mesh: Integers, rule: tuple[str, int, int], is_world: bool) -> ObjectTree:
-    """Return the tree over primitives of corners (T, C, 3)."""
-    hierarchy, leaf_size, octree_depth = rule
+def _rule(settings: Settings) -> _Rule:
+    return settings.hierarchy, settings.leaf_size, settings.octree_depth
+
+
+def _is_in_world(scene: AnyScene) -> TypeGuard[Scene]:
+    """Return whether the boxes of a scene lie in world space, where the camera does not move them."""
+    return isinstance(scene, Scene) and scene.program is None and all(mesh.is_affine for mesh in scene.meshes)
+
+
+def _kept(of: World | VertexStage, rule: _Rule) -> ObjectTree | None:
+    return next((tree for known, by, tree in _last if known is of and by == rule), None)
+
+
+def expected_tree(scene: AnyScene, triangle_count: int, settings: Settings) -> BuildCost | None:
+    """Return what the tree of a scene will take; ``None``: no method asks for one, or it is built already."""
+    if no_effect(settings, "hierarchy", scene):
+        return None
+    rule = _rule(settings)
+    if _is_in_world(scene) and _kept(place_meshes(scene.meshes), rule) is not None:
+        return None
+    return expected_build(rule[0], triangle_count, *rule[1:])
+
+
+def _grown(corners: Floats, mesh: Integers, rule: _Rule, is_world: bool) -> ObjectTree:
+    """Return the tree over primitives of corners (T, C, 3); whoever watches hears before what it takes."""
     objects = checked_objects(corners.min(axis=1), corners.max(axis=1), mesh)
-    build = table.get("hierarchy", hierarchy).function
-    return ObjectTree(objects, build(objects, leaf_size, octree_depth), is_world)
+    build = table.get("hierarchy", rule[0]).function
+    with work(expected_build(rule[0], len(objects), *rule[1:]).text):
+        return ObjectTree(objects, build(objects, *rule[1:]), is_world)
 
 
 def culled_objects(

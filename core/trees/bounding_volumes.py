@@ -11,99 +11,88 @@ J. Goldsmith, J. Salmon, *Automatic creation of object hierarchies for ray traci
 LMU, *Computer Graphics 1*, "BVH with AABB".
 """
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 import numpy as np
 
 from core.methods import method
-from core.records.arrays import Floats, Integers
+from core.records.arrays import Flags, Floats, Integers
 from core.records.box_tree import BoxTree, Objects, join_nodes
 from core.records.listing import Operation
+from core.trees.levels import Cuts, build_levels, sort_rows, spread_of, squares
 
 Node = tuple[list[float], list[float], int, list[int]]
 """What a listing says of a node: least and greatest corner, depth, and the objects of a leaf."""
 
 
-@dataclass(frozen=True, eq=False)
-class Split:
-    """How the objects of a node are cut into two parts."""
+def median_split(objects: Objects, center: Floats, items: Integers, count: Integers) -> Cuts:
+    """Cut nodes in the middle of their number, along the axis on which their centres spread most.
 
-    axis: int
-    items: Integers
-    """(P,) int64, the objects sorted by their centres along the axis."""
-    cut: int
-    """How many of them go into the first part."""
-    spread: Floats
-    """(3,) float64, extent of the centres along every axis."""
-    cost: float
-    """Area times number of both parts together, half a box's surface as its area; NaN: not looked at."""
-
-
-Splitter = Callable[[Objects, Integers], Split]
+    Arguments as of a `core.trees.levels.Splitter`: centres (T, 3), items (P,), and their count (N,) in each node.
+    """
+    spread = spread_of(center[items], count) if len(count) else np.empty((0, 3))
+    axis = spread.argmax(axis=1)
+    sorted_items = np.empty_like(items)
+    for nodes, place, is_own in squares(count):
+        turn = sort_rows(center[items[place], axis[nodes, None]], place, is_own)
+        sorted_items[place[is_own]] = items[turn[is_own]]
+    return Cuts(axis, count // 2, spread, np.full(len(count), np.nan), sorted_items)
 
 
-def centers(objects: Objects, items: Integers) -> Floats:
-    """Return the centres (P, 3) of the boxes of ``items`` (P,)."""
-    return objects.lower[items] / 2 + objects.upper[items] / 2
+def area_split(objects: Objects, center: Floats, items: Integers, count: Integers) -> Cuts:
+    """Cut nodes along the axis and at the place where area times number of both parts together is least.
+
+    Arguments as of `median_split`: centres (T, 3), items (P,), count (N,).
+    """
+    spread = spread_of(center[items], count) if len(count) else np.empty((0, 3))
+    axis, cut, cost = np.empty(len(count), np.int64), np.empty(len(count), np.int64), np.empty(len(count))
+    sorted_items = np.empty_like(items)
+    for nodes, place, is_own in squares(count):
+        turns = [sort_rows(center[items[place], k], place, is_own) for k in range(3)]
+        costs = [split_costs(objects, items[turn], is_own) for turn in turns]
+        best = np.stack([each.argmin(axis=1) for each in costs])
+        of_best = np.stack(
+            [
+                np.take_along_axis(each, at[:, None], axis=1)[:, 0]
+                for each, at in zip(costs, best, strict=True)
+            ]
+        )
+        chosen, row = of_best.argmin(axis=0), np.arange(len(nodes))
+        axis[nodes], cut[nodes], cost[nodes] = chosen, best[chosen, row] + 1, of_best[chosen, row]
+        turn = np.stack(turns)[chosen, row]
+        sorted_items[place[is_own]] = items[turn[is_own]]
+    return Cuts(axis, cut, spread, cost, sorted_items)
 
 
-def spread_of(center: Floats) -> Floats:
-    """Return the extents (3,) of centres (P, 3)."""
-    with np.errstate(over="ignore"):
-        return np.asarray(center.max(axis=0) - center.min(axis=0))
+def split_costs(objects: Objects, items: Integers, is_own: Flags) -> Floats:
+    """Return the costs (M, W - 1) of cutting rows of ``items`` (M, W) behind the first, the second, ... of their own.
 
-
-def median_split(objects: Objects, items: Integers) -> Split:
-    """Cut ``items`` (P,) in the middle of their number, along the axis on which their centres spread most."""
-    center = centers(objects, items)
-    spread = spread_of(center)
-    axis = int(spread.argmax())
-    order = items[np.argsort(center[:, axis], kind="stable")]
-    return Split(axis, order, len(items) // 2, spread, np.nan)
-
-
-def area_split(objects: Objects, items: Integers) -> Split:
-    """Cut ``items`` (P,) along the axis and at the place where area times number of both parts together is least."""
-    center = centers(objects, items)
-    sorted_by = [items[np.argsort(center[:, axis], kind="stable")] for axis in range(3)]
-    costs = np.stack([split_costs(objects.lower[order], objects.upper[order]) for order in sorted_by])
-    axis, place = (int(index) for index in np.unravel_index(costs.argmin(), costs.shape))
-    return Split(axis, sorted_by[axis], place + 1, spread_of(center), float(costs[axis, place]))
-
-
-def split_costs(lower: Floats, upper: Floats) -> Floats:
-    """Return the costs (P - 1,) of cutting boxes (P, 3) in their order behind the first, the second, ..."""
-    count = np.arange(1, len(lower))
-    below = half_area(np.minimum.accumulate(lower), np.maximum.accumulate(upper))[:-1]
-    above = half_area(np.minimum.accumulate(lower[::-1]), np.maximum.accumulate(upper[::-1]))[-2::-1]
+    Infinite where a row has no object behind the cut.
+    """
+    number, count = np.arange(1, items.shape[1]), is_own.sum(axis=1)[:, None]
+    lower, upper = [], []
+    for k in range(3):
+        lower.append(np.where(is_own, objects.lower[:, k].take(items), np.inf))
+        upper.append(np.where(is_own, objects.upper[:, k].take(items), -np.inf))
+    below = half_area(
+        *(np.minimum.accumulate(values, axis=1) for values in lower),
+        *(np.maximum.accumulate(values, axis=1) for values in upper),
+    )[:, :-1]
+    above = half_area(
+        *(np.minimum.accumulate(values[:, ::-1], axis=1) for values in lower),
+        *(np.maximum.accumulate(values[:, ::-1], axis=1) for values in upper),
+    )[:, -2::-1]
     with np.errstate(over="ignore", invalid="ignore"):
-        return below * count + above * (len(lower) - count)
+        return np.where(number < count, below * number + above * (count - number), np.inf)
 
 
-def half_area(lower: Floats, upper: Floats) -> Floats:
-    """Return half the surface (P,) of boxes (P, 3)."""
+def half_area(x: Floats, y: Floats, z: Floats, u: Floats, v: Floats, w: Floats) -> Floats:
+    """Return half the surface (M, W) of boxes from corners x, y, z to u, v, w, (M, W) each."""
     with np.errstate(over="ignore", invalid="ignore"):
-        x, y, z = np.moveaxis(upper - lower, -1, 0)
-        return np.asarray(x * y + y * z + z * x)
+        return np.asarray((u - x) * (v - y) + (v - y) * (w - z) + (w - z) * (u - x))
 
 
-def build(objects: Objects, leaf_size: int, split: Splitter) -> BoxTree:
-    """Return the tree of objects (T,), cut by ``split`` while more than ``leaf_size`` are together."""
-    lower, upper, depth, own = list[Floats](), list[Floats](), list[int](), list[Integers]()
-    none = np.empty(0, np.int64)
-    pending = [(np.arange(len(objects)), 0)] if len(objects) else []
-    while pending:
-        items, level = pending.pop()
-        lower.append(objects.lower[items].min(axis=0))
-        upper.append(objects.upper[items].max(axis=0))
-        depth.append(level)
-        is_leaf = len(items) <= leaf_size
-        own.append(items if is_leaf else none)
-        if not is_leaf:
-            parts = split(objects, items)
-            pending += [(parts.items[parts.cut :], level + 1), (parts.items[: parts.cut], level + 1)]
-    return join_nodes(lower, upper, depth, own)
+SPLITS = {"bvh": median_split, "bvh-area": area_split}
 
 
 def box_of(
@@ -212,7 +201,7 @@ def no_tree(objects: Objects, leaf_size: int, octree_depth: int) -> BoxTree:
     """Put one box around every mesh: as many leaves, and nothing above them."""
     starts = np.flatnonzero(np.diff(objects.mesh, prepend=-1))
     if not len(starts):
-        return build(objects, leaf_size, median_split)
+        return build_levels(objects, leaf_size, median_split).tree
     items = np.split(np.arange(len(objects)), starts[1:])
     lower, upper = np.minimum.reduceat(objects.lower, starts), np.maximum.reduceat(objects.upper, starts)
     return join_nodes(list(lower), list(upper), [0] * len(starts), items)
@@ -240,7 +229,7 @@ def no_tree(objects: Objects, leaf_size: int, octree_depth: int) -> BoxTree:
 )
 def bvh(objects: Objects, leaf_size: int, octree_depth: int) -> BoxTree:
     """Cut the objects in the middle of their number, along the axis of the widest spread."""
-    return build(objects, leaf_size, median_split)
+    return build_levels(objects, leaf_size, median_split).tree
 
 
 @method(
@@ -259,4 +248,4 @@ def bvh(objects: Objects, leaf_size: int, octree_depth: int) -> BoxTree:
 )
 def bvh_area(objects: Objects, leaf_size: int, octree_depth: int) -> BoxTree:
     """Cut the objects where the areas of both parts, each times its number of objects, are least together."""
-    return build(objects, leaf_size, area_split)
+    return build_levels(objects, leaf_size, area_split).tree

@@ -15,6 +15,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from core.methods import method
+from core.numeric.watched import report
 from core.records.arrays import Flags, Floats, Integers
 from core.records.box_tree import BoxTree, Objects, join_nodes
 from core.records.listing import Operation
@@ -105,13 +106,15 @@ def octree_listing(
 def octree(objects: Objects, leaf_size: int, octree_depth: int) -> BoxTree:
     """Halve a cube around all objects along all axes, while more than ``leaf_size`` touch a part of it.
 
+    Reports the share of the cube that is done to `core.numeric.watched.report`.
+
     Raises
     ------
     ValueError
         If more than `MOST_REFERENCES` objects would be listed, each as often as there are leaves that it touches.
     """
     lower, upper, depth, own = list[Floats](), list[Floats](), list[int](), list[Integers]()
-    none, listed = np.empty(0, np.int64), 0
+    none, listed, share = np.empty(0, np.int64), 0, 0.0
     pending = []
     if len(objects):
         pending.append((*cube_around(objects.lower, objects.upper), np.arange(len(objects)), 0))
@@ -123,8 +126,9 @@ def octree(objects: Objects, leaf_size: int, octree_depth: int) -> BoxTree:
         is_leaf = len(items) <= leaf_size or level == octree_depth
         own.append(items if is_leaf else none)
         if is_leaf:
-            listed += len(items)
+            listed, share = listed + len(items), share + 8.0**-level
             continue
+        report(share)
         _, lows, highs = octants_of(low, high)
         parts = touching(objects, items, lows, highs)
         pending += [(lows[k], highs[k], parts[k], level + 1) for k in reversed(range(8))]

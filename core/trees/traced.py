@@ -1,58 +1,17 @@
 """Rows of a tree that is built: one for every node, with what is computed to cut it."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from core.methods import table
-from core.records.arrays import Floats, Integers
-from core.records.box_tree import BoxTree, Objects
+from core.records.arrays import Integers
+from core.records.box_tree import BoxTree
 from core.records.listing import listing
 from core.settings import Settings
 from core.stages.object_tree import ObjectTree
 from core.trace.stage_trace import InsertedRows
-from core.trees.bounding_volumes import area_split, median_split
+from core.trees.bounding_volumes import SPLITS
+from core.trees.levels import SHOWN_ITEMS, build_levels
 from core.trees.octree import octants_of
-
-SHOWN_ITEMS = 6
-"""Objects of a sorted node that a row names."""
-
-
-@dataclass(frozen=True, eq=False)
-class Cuts:
-    """How every node of a tree was cut; leaves have NaN, -1 and no text."""
-
-    spread: Floats
-    """(N, 3) float64, see `core.trees.bounding_volumes.Split`."""
-    axis: Integers
-    """(N,) int64."""
-    cut: Integers
-    """(N,) int64."""
-    cost: Floats
-    """(N,) float64."""
-    sorted_items: list[str]
-    """The first objects of each, sorted."""
-
-
-def cuts_of(objects: Objects, tree: BoxTree, hierarchy: str) -> Cuts:
-    """Cut the nodes of a bounding volume hierarchy once more, from the top, to see how."""
-    split = area_split if hierarchy == "bvh-area" else median_split
-    count = len(tree)
-    spread, cost = np.full((count, 3), np.nan), np.full(count, np.nan)
-    found = Cuts(spread, np.full(count, -1), np.full(count, -1), cost, [""] * count)
-    items = {0: np.arange(len(objects))}
-    for node in range(count):
-        own = items.pop(node)
-        if tree.is_leaf[node]:
-            continue
-        parts = split(objects, own)
-        found.spread[node], found.axis[node], found.cut[node] = parts.spread, parts.axis, parts.cut
-        found.cost[node] = parts.cost
-        names = [str(item) for item in parts.items[:SHOWN_ITEMS].tolist()]
-        found.sorted_items[node] = ", ".join(names) + (", …" if len(own) > SHOWN_ITEMS else "")
-        below, above = tree.children(node)
-        items[below], items[above] = parts.items[: parts.cut], parts.items[parts.cut :]
-    return found
 
 
 def building_rows(grown: ObjectTree, settings: Settings) -> InsertedRows:
@@ -73,9 +32,9 @@ def building_rows(grown: ObjectTree, settings: Settings) -> InsertedRows:
     if method.name == "octree":
         columns |= _cells(tree)
     elif method.name != "none":
-        cuts = cuts_of(grown.objects, tree, method.name)
-        columns |= {"spread": cuts.spread, "axis": cuts.axis, "cut": cuts.cut, "cost": cuts.cost}
-        columns["sorted_items"] = np.array(cuts.sorted_items, str)
+        built = build_levels(grown.objects, settings.leaf_size, SPLITS[method.name])
+        columns |= {"spread": built.spread, "axis": built.axis, "cut": built.cut, "cost": built.cost}
+        columns["sorted_items"] = _named(built.first_items, tree.object_count)
     assert method.listing is not None
     return InsertedRows(
         before=np.zeros(count, np.int64),
@@ -86,6 +45,15 @@ def building_rows(grown: ObjectTree, settings: Settings) -> InsertedRows:
         operations=method.operations,
         columns=columns,
         listings=dict.fromkeys(kinds, listing(method.listing)),
+    )
+
+
+def _named(items: Integers, count: Integers) -> np.ndarray:
+    """Return the first objects (N, `SHOWN_ITEMS`) of nodes that were cut, as texts (N,); ``count`` (N,) of them all."""
+    named = [", ".join(str(item) for item in own if item >= 0) for own in items.tolist()]
+    more = (count > SHOWN_ITEMS).tolist()
+    return np.array(
+        [f"{text}, …" if text and of_more else text for text, of_more in zip(named, more, strict=True)], str
     )
 
 

@@ -24,6 +24,7 @@ from typing import Any
 import numpy as np
 
 from core.methods import method
+from core.numeric.watched import report
 from core.records.arrays import Flags, Floats, Integers, cached_property, read_only
 from core.records.primitives import DrawingOrder, Pieces
 
@@ -292,6 +293,7 @@ def _kept_tree(positions: bytes) -> BspTree | str:
         kept = [np.concatenate([others[side == where], *parts[k]]) for k, where in enumerate((FRONT, BACK))]
         waiting += [(kept[k], node, k) for k in (1, 0) if len(kept[k])]
         in_tree = len(held_by) + sum(len(each) for each, _, _ in waiting)
+        report(len(held_by) / in_tree)
         if in_tree > LARGEST_TREE or builder.tests > MOST_TESTS:
             return _refusal(len(clip))
 

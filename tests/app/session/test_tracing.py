@@ -11,6 +11,8 @@ from app.session.document import TEACHING_LIMIT, TRACED_TOGETHER, Document, open
 from app.session.session import Session
 from app.window.main_window import MainWindow
 from core import ClipScene, Settings
+from core.numeric import watched
+from core.trees.expected import SECONDS
 from lessons.scene_edits import move_corner
 from lessons.scenes import make_scene
 from lessons.shapes import sphere
@@ -45,6 +47,34 @@ def test_a_long_trace_is_taken_over_when_it_is_done(qtbot: QtBot) -> None:
     session.undo()
     assert session.document is before
     session.tracing.shut_down()
+
+
+def test_a_tree_is_built_in_the_background_reported_and_cancelled(
+    qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(SECONDS, "bvh", 1e-3)
+    monkeypatch.setattr(watched, "PAUSE", 0.0)
+    session = Session(open_document(BALL, "Sphere"))
+    before = session.document
+    in_tree = replace(before.settings, object_culling="frustum", hierarchy="bvh", leaf_size=1)
+    plain = before.estimated_seconds
+    assert replace(before, settings=in_tree).estimated_seconds > 3 + plain
+    told: list[tuple[float | None, str]] = []
+    session.tracing.progressed.connect(lambda fraction, doing: told.append((fraction, doing)))
+    session.edit(replace(before, settings=in_tree))
+    assert session.document is before
+    with qtbot.waitSignal(session.changed, timeout=20000):
+        pass
+    assert session.document.settings == in_tree
+    assert told[0] == (None, f"building a tree of {before.triangle_count:,} triangles, about 5 s and 1 MB")
+    assert any(fraction for fraction, _ in told)
+    # It is there now: looked at from elsewhere, nothing is built.
+    assert session.document.estimated_seconds < 1 + plain
+
+    session.edit(replace(before, settings=replace(in_tree, leaf_size=2)))
+    session.tracing.cancel()
+    session.tracing.shut_down()
+    assert session.document.settings == in_tree
 
 
 def test_all_triangles_that_are_traced_together_are_traced_at_once(

@@ -8,8 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.methods import table
+from core.numeric.watched import AbandonedError, watched, work
 from core.records.box_tree import BoxTree, Objects, checked_objects
 from core.trees.bounding_volumes import area_tree, median_tree, mesh_list
+from core.trees.expected import expected_build
 from core.trees.octree import MOST_REFERENCES, octree_listing
 
 TREES = {"none": mesh_list, "bvh": median_tree, "bvh-area": area_tree, "octree": octree_listing}
@@ -96,3 +98,30 @@ def test_wrong_boxes_and_too_many_references_are_named() -> None:
     low = np.zeros((20_000, 3))
     with pytest.raises(ValueError, match=f"may list {MOST_REFERENCES:,} objects, .*: lower octree_depth"):
         grown("octree", checked_objects(low, low + 1), 1, 8)
+
+
+@pytest.mark.parametrize("name", ["bvh", "bvh-area", "octree"])
+def test_building_reports_how_far_it_is_and_ends_where_it_is_cancelled(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("core.numeric.watched.PAUSE", 0.0)
+    low = np.random.default_rng(0).random((200, 3))
+    objects, told = checked_objects(low, low + 0.01), list[float]()
+    with watched(lambda fraction, _: told.append(fraction or 0.0)), work("building"):
+        tree = grown(name, objects)
+    assert len(told) > 5
+    assert told == sorted(told)
+    assert 0.5 < told[-1] <= 1
+    asked = iter(range(4))
+    with watched(None, lambda: next(asked) == 3), pytest.raises(AbandonedError):
+        grown(name, checked_objects(low, low + 0.01))
+    again = grown(name, objects)
+    assert np.array_equal(again.items, tree.items)
+
+
+def test_what_a_tree_takes_is_known_before() -> None:
+    few, many = (expected_build("bvh-area", count, 8, 5) for count in (1_000, 100_000))
+    assert few.text == ""
+    assert many.text == "building a tree of 100,000 triangles, about 1 s and 36 MB"
+    assert expected_build("octree", 100_000, 8, 5).byte_count > 4_193_792
+    assert expected_build("none", 100_000, 8, 5).text == ""
