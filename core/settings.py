@@ -407,7 +407,8 @@ DEFAULTS = Settings()
 def import_methods(settings: Settings) -> None:
     """Import all methods that settings choose: before the stages are timed, so that no stage's time contains it."""
     for family in families():
-        table.get(family, getattr(settings, family))
+        if not no_effect(settings, family):
+            table.get(family, getattr(settings, family))
 
 
 def settings_from_texts(pairs: Mapping[str, str], base: Settings | None = None) -> Settings:

@@ -6,7 +6,6 @@ from core.coverage.snapping import place_corners
 from core.culling.culling import DEGENERATE, KEPT, PLANES, REASONS, cull_verdict
 from core.culling.normal_view import NormalView, cofactors, face_normals
 from core.culling.object_culling import box_against_planes
-from core.culling.traced_objects import in_front_of
 from core.methods import table
 from core.records.arrays import Integers
 from core.records.listing import RETURN, Operation, listing
@@ -106,6 +105,8 @@ def trace_cull(source: TraceSource) -> StageTrace:
     grown = source.geometry.object_tree
     if grown is None:
         return found
+    from core.culling.traced_objects import in_front_of  # Only boxes wait for it.
+
     return in_front_of(found, len(KINDS) * which + kind, source, grown)
 
 

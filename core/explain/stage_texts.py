@@ -7,7 +7,7 @@ from typing import NamedTuple
 from core.coverage.pixel_runs import fill_traits
 from core.explain.records import StageCard
 from core.methods import table
-from core.records.steps import Level
+from core.records.steps import Level, RowOrder
 from core.records.words import TRIANGLES, Nouns, counted, nouns
 from core.settings import FIELDS
 from core.stages.declared import STAGES, Stage, stage_of
@@ -88,9 +88,12 @@ def _depth_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
     return [*tested, f"{counts['covered']:,} kept", f"{counts['depth-failed']:,} hidden or out of range"]
 
 
-def _scan_line_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
-    ties = [f"{counted(counts['tie'], 'tie')}"] if counts["tie"] else []
-    return [counted(counts["rows"], "step"), f"{counted(counts['covered'], _place(counts))} drawn", *ties]
+def _account_of_order(counts: Mapping[str, int], order: RowOrder) -> list[str]:
+    return [
+        f"{counted(counts[name], _place(counts) if noun == 'place' else noun)} {done}".rstrip()
+        for name, noun, done in order.sums
+        if done or counts[name]
+    ]
 
 
 def _resolve_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
@@ -219,7 +222,8 @@ def summary_sentence(
     triangle: int | None,
     corner_count: int = 3,
     method: str = "",
-    unit: str = "",
+    order: RowOrder | None = None,
+    pixel: tuple[int, int] = (-1, -1),
 ) -> str:
     """Say what a step larger than one operation did.
 
@@ -234,8 +238,8 @@ def summary_sentence(
         Corners of what is drawn: 2 of segments, 1 of points, 0 of tables of depths.
     method : str, optional
         The method that ran, as ``fill=hierarchy``: what a group of rows is, and what is done to a pixel.
-    unit : str, optional
-        What the step is where rows are not listed triangle by triangle, see `core.records.steps.RowOrder.unit`.
+    order : RowOrder, optional
+        How rows are listed, if it is not triangle by triangle; then ``pixel`` is that of the step, column and row.
     """
     known = {name: counts.get(name, 0) for name in ("rows", "tested", "samples", "boxes", *PRESENTED, *MARKS)}
     family, _, name = method.partition("=")
@@ -243,20 +247,19 @@ def summary_sentence(
     account_of, group = ACCOUNTS[stage], drawn.text(stage_of(stage).group)
     if family == "line":
         account_of, group = _line_account, "" if drawn.one == "point" else "one line"
-    if method == "visibility=scan-line":
-        account_of = _scan_line_account
     if family == "fill":
         # A lane is set up before its spans are filled.
         group = "one " + fill_traits(name).group_label.lower().split(" or ")[-1 if known["covered"] else 0]
-    account = ", ".join(account_of(known, drawn))
+    parts = _account_of_order(known, order) if order and order.sums else account_of(known, drawn)
+    account = ", ".join(parts)
     if known["nan"]:
         account += f", {known['nan']:,} undefined (NaN)"
     everything = f"All {drawn.many}"
     who = everything if triangle is None or triangle < 0 else f"{drawn.one.capitalize()} {triangle}"
     if level == Level.STAGE:
         who = "Whole stage"
-    elif unit:
-        who = unit
+    elif order:
+        who = order.unit(level, *pixel)
     elif level == Level.GROUP and group:
         who = group.capitalize() if who == everything else f"{who}, {group}"
     return f"{who}: {account}."

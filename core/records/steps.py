@@ -127,6 +127,9 @@ class RowOrder:
     """What a step of the levels TRIANGLE, GROUP and PIXEL is, as ``Row``, ``Pixel``, ``Candidate``."""
     is_by_pixel: bool = False
     """Whether all rows about a pixel stand together, and are one step of the level GROUP."""
+    sums: tuple[tuple[str, str, str], ...] = ()
+    """What a larger step is summed up as: a count of ``StageTrace.summary``, the noun of what is counted (``place``: a
+    pixel or sample), and what was done to it; without that, none of 0 is told. Empty: as the stage sums up."""
 
     def keys(self, pixel: Integers) -> tuple[Integers, ...]:
         """Return what rows about pixels (R, 2), columns and rows, are sorted by: the outer loop first, each (R,)."""

@@ -54,23 +54,19 @@ def is_opened(step: StepValues) -> Asked | None:
 
 
 @explains("depth.tree-missed.miss", asks=is_opened, decides=True)
-def missed(step: StepValues) -> Said:
-    """A box that the ray passes by."""
-    enter, leave = step.named("enter_z", "enter"), step.named("leave_z", "leave")
-    text = f"{_box(step)}: the ray misses the box, as it would leave at {leave} before it enters at {enter}."
-    if not isfinite(enter.value) or not isfinite(leave.value):
-        return text
-    return text, formula_of(concludes("missed", "missed", leave.compared("<", enter)))
-
-
 @explains("depth.tree-behind|tree-node|tree-leaf.meet")
-def met(step: StepValues) -> Said:
-    """A box that the ray goes through."""
+def missed_or_met(step: StepValues) -> Said:
+    """A box that the ray passes by, or goes through."""
     enter, leave = step.named("enter_z", "enter"), step.named("leave_z", "leave")
-    text = f"{_box(step)}: the ray meets the box, from t = {enter} to {leave}."
+    text, verdict = f"{_box(step)}: the ray meets the box, from t = {enter} to {leave}.", "met"
+    if step.operation == "miss":
+        text = (
+            f"{_box(step)}: the ray misses the box, as it would leave at {leave} before it enters at {enter}."
+        )
+        verdict = "missed"
     if not isfinite(enter.value) or not isfinite(leave.value):
         return text
-    return text, formula_of(concludes("missed", "met", leave.compared("<", enter)))
+    return text, formula_of(concludes("missed", verdict, leave.compared("<", enter)))
 
 
 @explains("depth.tree-missed|tree-behind.jump")

@@ -16,7 +16,10 @@ from core.trace.stage_trace import BufferTrack, StageTrace, empty_like
 from core.visibility.ray_casting import BY_FLOATS, EXACTLY, FIRST, hit_is_nearer, hit_value
 from core.visibility.scan_line import ALONE, HALVED, PAIR, SAME, ScanLines, draw_rows
 
-SEGMENT_BY_SEGMENT = RowOrder(("Row", "Span", "Compare"))
+SEGMENT_BY_SEGMENT = RowOrder(
+    ("Row", "Span", "Compare"),
+    sums=(("rows", "step", ""), ("covered", "place", "drawn"), ("tie", "tie", "")),
+)
 """One row of pixels after another, in it one segment after another, in it one comparison after another."""
 
 _HIT = (

@@ -60,10 +60,8 @@ def sentence_at(step: Step) -> str:
         return statements_summary(trace, first, row, level)
     if level <= Level.GROUP and row > first:
         counts = trace.summary(first, row + 1)
-        unit = trace.order.unit(level, *trace.pixel[row].tolist()) if trace.order else ""
-        said = summary_sentence(
-            trace.stage, level, counts, step.triangle, trace.corner_count, trace.method, unit
-        )
+        of_trace = trace.corner_count, trace.method, trace.order, tuple(trace.pixel[row].tolist())
+        said = summary_sentence(trace.stage, level, counts, step.triangle, *of_trace)
         return " ".join([said, *remarks(trace, first, row + 1)])
     if level != Level.OPERATION:
         return row_sentence(trace, step.cursor.position)
