@@ -15,7 +15,7 @@ SECTIONS = re.findall(
     (ROOT / "docs" / "extending.md").read_text(encoding="utf-8"),
     re.MULTILINE | re.DOTALL,
 )
-FAMILY = {"A line method": "line", "A depth format": "depth"}
+FAMILY = {"A line method": "line", "A depth format": "depth", "A method of visibility": "visibility"}
 """Sections that add a method, and its family."""
 COMPLETE = "tests/core/test_methods_are_complete.py::test_methods_are_complete"
 
@@ -52,6 +52,7 @@ def test_a_method_takes_two_files_at_most() -> None:
     assert [title for title, _ in SECTIONS] == [
         "A line method",
         "A depth format",
+        "A method of visibility",
         "A view of a stage",
         "An action",
         "A pane",
