@@ -47,14 +47,21 @@ class Family(SettingField):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class WholeNumber(SettingField):
-    """A whole number from 1 on that some methods of a family take."""
+    """A whole number that some methods of a family take."""
 
     limit: int
     """Largest that it may be."""
+    least: int = 1
+    """Smallest that it may be."""
     offered: tuple[int, ...]
     """Those in menus."""
     label: str
     """How a menu shows one, a format of the number."""
+
+    @property
+    def limits(self) -> str:
+        """Both limits in words."""
+        return f"from {self.least} to {self.limit}"
 
 
 def choice(default: str, title: str, stage: str, *files: str, **applies: Any) -> Any:
@@ -102,9 +109,11 @@ NOT_FOR: Mapping[str, Mapping[str, str]] = {
     "no texture": dict.fromkeys(("texture_filter", "wrap"), "This scene has no texture."),
     "own shaders": {
         "shading": "The scene's own shaders do it. The pane Shaders (L) takes them off.",
+        "shadow": "The scene's own shaders light it, and look into no shadow map.",
         "object_culling": "The scene's vertex shader moves the corners: the boxes of its meshes do not hold them.",
         "depth_test_time": "A shader may discard a fragment, so depth is tested after it has run.",
     },
+    "no shadow": {"shadow": "No light of this scene casts shadows: only a directional light can."},
     "no lights": {
         "shading": "Typed triangles have no lights: they are unlit.",
         "object_culling": "This scene has no meshes: only those have boxes in world space.",
@@ -124,6 +133,7 @@ def facts(scene: AnyScene | None) -> list[str]:
         "no polygons": scene.corner_count <= 3,
         "no texture": all(texture is None for texture in textures),
         "own shaders": scene.program is not None,
+        "no shadow": isinstance(scene, ClipScene) or scene.casting_light < 0,
         "no lights": isinstance(scene, ClipScene),
     }
     return [fact for fact, is_so in holds.items() if is_so]

@@ -154,6 +154,12 @@ class ResolvedSettings:
         return is_registered(self.settings.interpolation, "flat")
 
     @cached_property
+    def shadow(self) -> Method | None:
+        """How shadows are found, where light is computed at fragments; ``None``: there are none."""
+        method = self.method("shadow")
+        return method if method.traits and "shadow" in self.method("shading").takes else None
+
+    @cached_property
     def tests_early(self) -> bool:
         """Whether depth is tested before a fragment is shaded: the method of visibility takes the time of the test."""
         is_early: bool = self.method("depth_test_time").function()

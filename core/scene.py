@@ -189,6 +189,8 @@ class DirectionalLight:
     """(3,) float64, world space, the way the light travels."""
     color: Floats = field(default_factory=lambda: np.ones(3))
     """(3,) float64, linear."""
+    casts_shadow: bool = True
+    """Whether it may be the light of its scene that casts shadows, see `Scene.casting_light`."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "direction", checked("light direction", self.direction, (3,)))
@@ -239,6 +241,12 @@ class Scene:
             raise ValueError("a scene needs at least one mesh")
         object.__setattr__(self, "size", checked_size("size", self.size, SIZE_LIMIT))
         object.__setattr__(self, "background", checked("background", self.background, (4,)))
+
+    @property
+    def casting_light(self) -> int:
+        """Number of the light that casts shadows: the first directional one that may; -1: none does."""
+        casts = (isinstance(light, DirectionalLight) and light.casts_shadow for light in self.lights)
+        return next((number for number, is_so in enumerate(casts) if is_so), -1)
 
 
 CORNER_COUNTS = {"points": 1, "segments": 2, "triangles": 3, "fragments": 0}

@@ -25,12 +25,7 @@ class Settings:
         is_look=True,
         classical=("none", "back"),
     )
-    object_culling: str = choice(
-        "none",
-        "Object culling",
-        "cull",
-        "core.culling.object_culling",
-    )
+    object_culling: str = choice("none", "Object culling", "cull", "core.culling.object_culling")
     hierarchy: str = choice(
         "bvh",
         "Hierarchy",
@@ -49,11 +44,7 @@ class Settings:
         classical=("homogeneous", "sutherland-hodgman"),
     )
     coverage: str = choice(
-        "snapped",
-        "Edge functions",
-        "edges",
-        "core.coverage.edge_formats",
-        "core.coverage.edges",
+        "snapped", "Edge functions", "edges", "core.coverage.edge_formats", "core.coverage.edges"
     )
     fill_rule: str = choice(
         "shared-edge",
@@ -155,12 +146,7 @@ class Settings:
         classical=("nearest", "bilinear", "trilinear"),
     )
     wrap: str = choice(
-        "repeat",
-        "Texture wrap",
-        "shade",
-        "core.textures.look_up",
-        asks=("traits",),
-        is_look=True,
+        "repeat", "Texture wrap", "shade", "core.textures.look_up", asks=("traits",), is_look=True
     )
     shading: str = choice(
         "phong",
@@ -170,6 +156,16 @@ class Settings:
         asks=("traits",),
         is_look=True,
         classical=("flat", "gouraud", "phong"),
+    )
+    shadow: str = choice(
+        "none",
+        "Shadows",
+        "shade",
+        "core.shading.shadows",
+        "core.shading.shadow_rays",
+        taken_by="shading",
+        otherwise="Shadows fall where light is computed at every fragment: choose Phong shading.",
+        is_look=True,
     )
     visibility: str = choice(
         "z-buffer",
@@ -225,11 +221,7 @@ class Settings:
         otherwise="Only several samples per pixel are filtered.",
     )
     presentation: str = choice(
-        "none",
-        "Presentation",
-        "resolve",
-        "core.framebuffer.presentation",
-        is_look=True,
+        "none", "Presentation", "resolve", "core.framebuffer.presentation", is_look=True
     )
     flush: str = choice(
         "by-row",
@@ -261,6 +253,27 @@ class Settings:
         otherwise="Only an octree needs a limit of its depth.",
     )
     """How often a cell of an octree is halved at most, 1 to 8."""
+    map_size: int = number_field(
+        64,
+        "Shadow map",
+        2048,
+        (1, 4, 8, 16, 32, 64, 128, 256, 512, 1024),
+        "{0} × {0} texels",
+        taken_by="shadow",
+        otherwise="Only shadow maps have texels.",
+    )
+    """Texels on a side of a shadow map, 1 to 2,048."""
+    shadow_bias: int = number_field(
+        16,
+        "Shadow bias",
+        1024,
+        (0, 4, 6, 8, 11, 16, 23, 32, 64, 128),
+        "{0}/16 texel",
+        least=0,
+        taken_by="shadow",
+        otherwise="Only shadow maps need a bias.",
+    )
+    """How far a point may lie behind what the map stores and still be lit, in 1/16 of a texel's width, 0 to 1,024."""
     block_size: int = number_field(
         8,
         "Block size",
@@ -320,13 +333,11 @@ class Settings:
                 table.get(family, name)
         for name, number in WHOLE_NUMBERS.items():
             value = getattr(self, name)
-            if type(value) is not int or not 1 <= value <= number.limit:
-                raise ValueError(f"{name} must be a whole number from 1 to {number.limit}, got {value!r}")
+            if type(value) is not int or not number.least <= value <= number.limit:
+                raise ValueError(f"{name} must be a whole number {number.limits}, got {value!r}")
 
     def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Settings):
-            return NotImplemented
-        return not self.differences(other)
+        return not self.differences(other) if isinstance(other, Settings) else NotImplemented
 
     def differences(self, other: "Settings") -> dict[str, str | int]:
         """Return the values of ``other`` that are not those of these settings, by name."""
@@ -373,7 +384,7 @@ FIELDS: Mapping[str, SettingField] = {field.name: field.metadata["field"] for fi
 FAMILIES = {name: declared for name, declared in FIELDS.items() if isinstance(declared, Family)}
 """The families of methods, in pipeline order."""
 WHOLE_NUMBERS = {name: declared for name, declared in FIELDS.items() if isinstance(declared, WholeNumber)}
-"""Settings that are whole numbers from 1 on."""
+"""Settings that are whole numbers."""
 for _name, _family in FAMILIES.items():
     table.declare(_name, _family.files)
 
@@ -390,9 +401,8 @@ def no_effect(settings: Settings, name: str, scene: AnyScene | None = None) -> s
     for reasons in (NOT_FOR[fact] for fact in facts(scene)):
         if name in reasons or "" in reasons:
             return reasons.get(name, reasons.get("", ""))
-    takers = FIELDS[name].takers
-    taking = [by for by in takers if name in table.get(by, getattr(settings, by)).takes]
-    if takers and not taking:
+    taking = [by for by in FIELDS[name].takers if name in table.get(by, getattr(settings, by)).takes]
+    if FIELDS[name].taken_by and not taking:
         return FIELDS[name].otherwise
     if name in NOT_FOR["outlined"] and table.get("polygon_mode", settings.polygon_mode).function():
         return NOT_FOR["outlined"][name]
@@ -416,10 +426,9 @@ def settings_from_texts(pairs: Mapping[str, str], base: Settings | None = None) 
 
     A wrong name raises ValueError.
     """
-    known = {field.name for field in fields(Settings)}
     for name in pairs:
-        if name not in known:
-            raise ValueError(f"setting must be one of {', '.join(sorted(known))}, got {name}")
+        if name not in FIELDS:
+            raise ValueError(f"setting must be one of {', '.join(sorted(FIELDS))}, got {name}")
     values: dict[str, str | int] = dict(pairs)
     for name in WHOLE_NUMBERS.keys() & pairs.keys():
         try:

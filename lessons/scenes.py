@@ -21,6 +21,7 @@ from lessons.window_scenes import (
 )
 from lessons.world_scenes import (
     TEACHING_SIZE,
+    box_in_light,
     boxes_around,
     lit_floor,
     of_mesh,
@@ -360,6 +361,14 @@ CATALOGUE = (
         "A light is mirrored in the middle of two large triangles: Phong shading shows it, Gouraud shading loses it.",
         lit_floor,
         RunPlace("shade", "column == 31 and row == 20", pixel=(31, 20)),
+    ),
+    BuiltInScene(
+        "box-in-light",
+        "Box in the light",
+        "What the light sees is drawn first, on 16 x 16 texels: what lies behind that is in the shadow.",
+        box_in_light,
+        RunPlace("shade", "light_share == 0 and triangle < 2", "compare"),
+        {"shadow": "map", "map_size": "16", "shadow_bias": "11"},
     ),
     BuiltInScene(
         "cube",

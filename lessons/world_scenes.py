@@ -95,6 +95,23 @@ def lit_floor() -> Scene:
     return Scene((lying,), camera, (PointLight(np.array([0.0, 2.0, -10.0])),), TEACHING_SIZE)
 
 
+def box_in_light() -> Scene:
+    """Return a box on a floor, in the light that falls to the left and to the back: its shadow lies on the floor."""
+    half = 4.0
+    lying = Mesh(
+        positions=np.array([[-half, 0.0, -half], [half, 0.0, -half], [half, 0.0, half], [-half, 0.0, half]]),
+        triangles=np.array([[0, 2, 1], [0, 3, 2]]),
+        faces=np.array([0, 0]),
+        name="floor",
+    )
+    lift = np.eye(4)
+    lift[1, 3] = 0.5
+    colors = np.tile(linear_color(FACE_COLORS[1]), (24, 1))
+    box = replace(cube(1.0), transform=lift, colors=colors, name="box")
+    camera = Camera(np.array([-3.0, 5.0, 5.0]), np.array([-0.4, 0.2, 0.0]), near=1.0, far=30.0)
+    return Scene((lying, box), camera, (DirectionalLight(np.array([-1.0, -1.2, -0.6])),), TEACHING_SIZE)
+
+
 def sun() -> DirectionalLight:
     """Return light from above left."""
     return DirectionalLight(np.array([0.4, -0.8, -0.7]))

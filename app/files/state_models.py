@@ -102,6 +102,8 @@ class LightRecord(Record):
     vector: Numbers3
     """Direction or position, world space."""
     color: Numbers3
+    casts_shadow: bool = True
+    """Of a directional light, whether it may be the one that casts shadows."""
 
 
 class SourceRecord(Record):

@@ -243,9 +243,10 @@ def _mesh_record(mesh: Mesh, index: int, own: dict[str, str], theirs: Fingerprin
 def _light_record(light: Light) -> LightRecord:
     kind: Literal["directional", "point"] = "point"
     vector = light.direction if isinstance(light, DirectionalLight) else light.position
+    casts = True
     if isinstance(light, DirectionalLight):
-        kind = "directional"
-    return LightRecord(kind=kind, vector=_numbers(vector), color=_numbers(light.color))
+        kind, casts = "directional", light.casts_shadow
+    return LightRecord(kind=kind, vector=_numbers(vector), color=_numbers(light.color), casts_shadow=casts)
 
 
 def _table_record(table: DepthTable) -> TableSceneRecord:
@@ -440,6 +441,8 @@ def _check_name(field: str, name: str) -> None:
 
 
 def _light(index: int, record: LightRecord) -> Light:
-    make = DirectionalLight if record.kind == "directional" else PointLight
+    vector, color = np.array(record.vector), np.array(record.color)
     with in_field(f"scene.lights.{index}"):
-        return make(np.array(record.vector), np.array(record.color))
+        if record.kind == "point":
+            return PointLight(vector, color)
+        return DirectionalLight(vector, color, record.casts_shadow)

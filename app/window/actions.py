@@ -247,6 +247,9 @@ ACTIONS: tuple[Action, ...] = (
         Row("previous_triangle", "Alt+K", "Previous triangle", lambda w: w.edits.step_triangle(-1)),
         Row("go_to_triangle", "Ctrl+Shift+G", "Go to triangle…", lambda w: w.overlays.ask_triangle()),
     ),
+    *rows_of("step", EDITING, "Raster", lambda w: w.page)(
+        Row("open_pass", "Ctrl+L", "Open the pass that is drawn first", lambda p: p.open_pass()),
+    ),
     *rows_of("step", EDITING, "Edit", whole_window)(
         Row("next_vertex", "Alt+N", "Choose the next vertex to move", lambda w: choose_vertex(w.page))
     ),

@@ -196,6 +196,7 @@ NOT_EDITABLE = {
         "chooses what is drawn, and has no listing", "runs whole stages, not numbers"
     ),
     "wrap": "Its listing stands below that of the texture filter: edit it there.",
+    "shadow": "It compares with a picture of the whole scene that is drawn first.",
     "visibility": "It orders triangles, or casts rays, for the whole picture at once.",
     "antialiasing": _FIXED,
     "resolve_filter": "Its listing takes all samples of a pixel.",

@@ -222,6 +222,8 @@ def shading_is_passed_over(settings: Settings, scene: Any) -> str:
     """Return why an edited light would not run."""
     if scene is not None and scene.program is not None:
         return "The shaders of the scene light it."
+    if settings.shadow != "none":
+        return "Shadows change what arrives of a light at each fragment: choose shadow none."
     return ""
 
 

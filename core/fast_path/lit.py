@@ -51,7 +51,9 @@ from core.fast_path.pixel_light import (
     pixel_light,
 )
 from core.records.arrays import Floats, Integers, Singles
+from core.resolved import resolve
 from core.scene import Mesh, Scene, Texture
+from core.settings import Settings
 from core.stages.geometry import Geometry
 from core.textures.single_precision import FARTHEST, SingleSampler, is_plain
 from core.textures.single_precision import ROUNDING as TEXEL_ROUNDING
@@ -84,10 +86,15 @@ class LitMesh:
         return self.facts.brightest if self.color is None else float(max(self.color))
 
 
+def is_phong(settings: Settings) -> bool:
+    """Return whether fragments are lit, and none of them looks for a shadow."""
+    return settings.shading == "phong" and resolve(settings).shadow is None
+
+
 def even_mesh(context: DrawContext) -> LitMesh | None:
     """Return the mesh that all primitives are of: opaque, lit from far away, shaded as Phong does."""
     scene, settings, number = context.scene, context.settings, context.only_mesh
-    if number is None or not isinstance(scene, Scene) or settings.shading != "phong":
+    if number is None or not isinstance(scene, Scene) or not is_phong(settings):
         return None
     if settings.interpolation != "perspective":
         return None
@@ -342,7 +349,7 @@ def lit_colors(context: DrawContext) -> LitColors | None:
     Of several meshes, pieces of clipped triangles are left to the plain rules.
     """
     scene, primitives = context.scene, context.geometry.primitives
-    if not isinstance(scene, Scene) or context.settings.shading != "phong":
+    if not isinstance(scene, Scene) or not is_phong(context.settings):
         return None
     is_several = len(scene.meshes) > 1
     if is_several and (len(scene.meshes) > MOST or context.geometry.has_pieces):

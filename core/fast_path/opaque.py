@@ -13,7 +13,7 @@ The files of each way are imported when it is first taken, as in `core.fast_path
 """
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -150,7 +150,7 @@ def _one_by_one(context: DrawContext, nearest: NearestFragments, chosen: Integer
 
 
 if TYPE_CHECKING:  # the first picture of one colour a triangle does not wait for these
-    LayerColors = PaletteColors | CornerColors | TextureColors
+    LayerColors: TypeAlias = PaletteColors | CornerColors | TextureColors
 
 
 def draw_layer(context: DrawContext, colors: "LayerColors") -> Split | None:

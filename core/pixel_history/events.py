@@ -194,7 +194,8 @@ def _fragment_events(
         chain = [*_upper_chain(candidates, which), *raster]
         if corner_count in (2, 3):
             chain.append(Link("interpolate", "weights", _weights(candidates, fragments, k)))
-        shaded = Link("shade", "color", {"color": fragments.color[k]})
+        share = None if fragments.light_share is None else float(fragments.light_share[k])
+        shaded = Link("shade", "color", {"color": fragments.color[k], "light_share": share})
         if is_early and not passage.passes:
             shaded = Link("shade", "not-shaded", {})
         chain += [shaded, passage.depth_link]

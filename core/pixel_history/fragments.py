@@ -157,6 +157,8 @@ class PixelFragments:
     """Of those that ``keeps`` has, (K,): what is said of an exact comparison, as ``ExactTests.told`` gives it."""
     turn: Integers | None = None
     """(F,) int64, the fragments from back to front, where scan lines sort them; ``None``: in drawing order."""
+    light_share: Floats | None = None
+    """(F,) float64, what arrives of the light that casts shadows; ``None``: no shadow is looked for."""
 
     @property
     def in_turn(self) -> list[int]:
@@ -208,6 +210,7 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
         depth_format.scale,
         None if exact is None else exact.told(),
         turn,
+        surface.light_share,
     )
 
 

@@ -117,6 +117,14 @@ def _weights(values: Values) -> str:
     return f"{text} (divided by w; in the window {joined([exact_text(w) for w in values['in_window']])})"
 
 
+def _shaded(values: Values) -> str:
+    """Return the colour, and whether the light that casts shadows arrives."""
+    text, share = "colour " + ", ".join(exact_text(c) for c in values["color"]), values.get("light_share")
+    if share in (None, 1.0):
+        return text
+    return f"{text}; in the shadow" if share == 0 else f"{text}; {exact_text(share)} of the light arrives"
+
+
 def _would(values: Values) -> str:
     return "; otherwise it would have a fragment here" if values.get("would_cover") else ""
 
@@ -245,7 +253,7 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     ("raster", "empty-cell"): "its cell is empty",
     **COVERAGE,
     ("interpolate", "weights"): _weights,
-    ("shade", "color"): lambda v: "colour " + ", ".join(exact_text(c) for c in v["color"]),
+    ("shade", "color"): _shaded,
     ("shade", "not-shaded"): "not shaded, as it failed the early depth test",
     ("depth", "passed"): lambda v: f"passed the depth test: {_compared(v, 'against')}",
     ("depth", "failed"): lambda v: f"failed the depth test: {_compared(v, 'is not nearer than')}",

@@ -97,6 +97,7 @@ def light_surface(
     lights: Sequence[Light],
     material: Surface,
     two_sided: bool = True,
+    colors: Sequence[Floats] | None = None,
 ) -> tuple[Floats, Floats]:
     """Light F points by the Blinn-Phong rule.
 
@@ -111,6 +112,8 @@ def light_surface(
         One for all points, or one each.
     two_sided : bool
         Turn a normal that faces away from the eye.
+    colors : sequence of (3,) or (3, F) float64 arrays, optional
+        What arrives of each light, for all points or for each: less than its colour in a shadow. ``None``: all of it.
 
     Returns
     -------
@@ -123,14 +126,24 @@ def light_surface(
         here = material.take(part) if isinstance(material, Reflectance) else material
         seen_from = eye if eye.ndim == 1 else eye[part]
         sums = diffuse_light[:, part].T, specular_light[:, part].T
+        arriving = _arriving(lights, colors, part)
         _start_sums(*sums, here)
         if two_sided or not _is_matte(here, position[part], seen_from):
             points = _points(position[part], normal[part], seen_from, two_sided)
-            for light in lights:
-                _add_light(*sums, _terms(points, light, here), light, here)
+            for light, color in zip(lights, arriving, strict=True):
+                _add_light(*sums, _terms(points, light, here), color, here)
         else:
-            _add_matte_light(*sums, position[part], normal[part], lights, here)
+            _add_matte_light(*sums, position[part], normal[part], lights, arriving, here)
     return diffuse_light.T, specular_light.T
+
+
+def _arriving(
+    lights: Sequence[Light], colors: Sequence[Floats] | None, part: slice = slice(None)
+) -> list[Floats]:
+    """Return what arrives of lights at the points of ``part``: (3,) each, or (3, Q) where it differs."""
+    if colors is None:
+        return [light.color for light in lights]
+    return [color if color.ndim == 1 else color[:, part] for color in colors]
 
 
 def _is_matte(material: Surface, position: Floats, eye: Floats) -> bool:
@@ -152,6 +165,7 @@ def _add_matte_light(
     position: Floats,
     normal: Floats,
     lights: Sequence[Light],
+    arriving: Sequence[Floats],
     material: Surface,
 ) -> None:
     """Add ``lights`` to the (F, 3) sums of points without highlight, as `_add_light` does.
@@ -159,9 +173,9 @@ def _add_matte_light(
     Normals or lights without end make the cosine NaN, and then the highlight is NaN too.
     """
     where, unit_normal = planes(position), _unit(planes(normal))
-    for light in lights:
+    for light, color in zip(lights, arriving, strict=True):
         n_dot_l = dot(unit_normal, _unit(_towards(light, where)))
-        _add_diffuse(diffuse_sum, n_dot_l, light, material)
+        _add_diffuse(diffuse_sum, n_dot_l, color, material)
         undefined = np.isnan(n_dot_l)
         if undefined.any():
             specular_sum[undefined] = np.nan
@@ -175,6 +189,7 @@ def trace_lighting(
     lights: Sequence[Light],
     material: Surface,
     two_sided: bool = True,
+    colors: Sequence[Floats] | None = None,
 ) -> Lighting:
     """Do what `light_surface` does for (F, 3) points, and keep every term."""
     count = len(position)
@@ -183,13 +198,13 @@ def trace_lighting(
     to_light, half = np.empty((2, len(lights), count, 3))
     n_dot_l, n_dot_h, power = np.empty((3, len(lights), count))
     _start_sums(diffuse_light[0], specular_light[0], material)
-    for number, light in enumerate(lights):
+    for number, (light, color) in enumerate(zip(lights, _arriving(lights, colors), strict=True)):
         terms = _terms(points, light, material)
         _store(to_light[number], terms.to_light)
         _store(half[number], terms.half)
         n_dot_l[number], n_dot_h[number], power[number] = terms.n_dot_l, terms.n_dot_h, terms.power
         diffuse_light[number + 1], specular_light[number + 1] = diffuse_light[number], specular_light[number]
-        _add_light(diffuse_light[number + 1], specular_light[number + 1], terms, light, material)
+        _add_light(diffuse_light[number + 1], specular_light[number + 1], terms, color, material)
     unit_normal, to_eye = np.empty((2, count, 3))
     _store(unit_normal, points.normal)
     _store(to_eye, points.to_eye)
@@ -263,21 +278,21 @@ def _start_sums(diffuse_sum: Floats, specular_sum: Floats, material: Surface) ->
 
 
 def _add_light(
-    diffuse_sum: Floats, specular_sum: Floats, terms: _Terms, light: Light, material: Surface
+    diffuse_sum: Floats, specular_sum: Floats, terms: _Terms, color: Floats, material: Surface
 ) -> None:
-    """Add one light to the (F, 3) sums."""
-    _add_diffuse(diffuse_sum, terms.n_dot_l, light, material)
+    """Add one light, of which ``color`` (3,) or (3, F) arrives, to the (F, 3) sums."""
+    _add_diffuse(diffuse_sum, terms.n_dot_l, color, material)
     specular = material.specular * terms.power
     for channel in range(3):
-        specular_sum[:, channel] += specular * light.color[channel]
+        specular_sum[:, channel] += specular * color[channel]
 
 
-def _add_diffuse(diffuse_sum: Floats, n_dot_l: Floats, light: Light, material: Surface) -> None:
+def _add_diffuse(diffuse_sum: Floats, n_dot_l: Floats, color: Floats, material: Surface) -> None:
     """Add the diffuse term of one light, (F,) cosines, to the (F, 3) sum."""
     diffuse = np.maximum(n_dot_l, 0.0)
     diffuse *= material.diffuse
     for channel in range(3):
-        diffuse_sum[:, channel] += diffuse * light.color[channel]
+        diffuse_sum[:, channel] += diffuse * color[channel]
 
 
 def _towards(light: Light, position: Planes) -> Planes:

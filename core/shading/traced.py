@@ -18,9 +18,10 @@ from core.records.steps import Steps, ends_of
 from core.scene import ClipScene, Scene, Texture
 from core.shading.lighting import blinn_phong, plain_lights, plain_material, trace_lighting
 from core.shading.shading import LightRule, shaded_color, textured_albedo, unlit_color
+from core.shading.traced_shadows import SHADOW_BUFFERS, shadow_columns, shadow_listings, shadow_operations
 from core.stages.fragment_color import has_program
 from core.stages.fragments import edited_slopes_at
-from core.stages.vertex_light import material_of, viewpoint
+from core.stages.vertex_light import arriving_colors, material_of, viewpoint
 from core.textures.footprints import slope_numerators, slopes_at, slopes_of_edit, slopes_of_one_value
 from core.textures.look_up import ColorRule, sample_texture, uses_mipmaps
 from core.textures.mipmaps import LevelSamples, level_of_detail, sample_mipmaps
@@ -251,17 +252,26 @@ def _light_columns(source: TraceSource, mesh: Integers) -> dict[str, np.ndarray]
             "lit_eye": eyes,
             "lit_material": numbers,
         }
-    lighting = trace_lighting(position, normal, eye, lights, material, False)
-    return found | {
-        "normal": lighting.normal,
-        "to_light": np.moveaxis(lighting.to_light, 0, 1),
-        "half": np.moveaxis(lighting.half, 0, 1),
-        **dict(zip(("ambient", "diffuse", "specular", "shininess"), numbers.T, strict=True)),
-        "to_eye": lighting.to_eye,
-        "n_dot_l": lighting.n_dot_l.T,
-        "n_dot_h": lighting.n_dot_h.T,
-        "power": lighting.power.T,
-    }
+    shadow, arriving = shadow_columns(source, position), None
+    if shadow:
+        arriving = arriving_colors(source.scene, shadow["light_share"])
+        rows = [np.broadcast_to(color.reshape(3, -1), (3, count)).T for color in arriving]
+        found["light_colors"] = np.stack(rows, axis=1)
+    lighting = trace_lighting(position, normal, eye, lights, material, False, arriving)
+    return (
+        found
+        | shadow
+        | {
+            "normal": lighting.normal,
+            "to_light": np.moveaxis(lighting.to_light, 0, 1),
+            "half": np.moveaxis(lighting.half, 0, 1),
+            **dict(zip(("ambient", "diffuse", "specular", "shininess"), numbers.T, strict=True)),
+            "to_eye": lighting.to_eye,
+            "n_dot_l": lighting.n_dot_l.T,
+            "n_dot_h": lighting.n_dot_h.T,
+            "power": lighting.power.T,
+        }
+    )
 
 
 def _textures(source: TraceSource) -> list[Texture | None]:
@@ -296,6 +306,7 @@ def _operations(source: TraceSource, has_normals: bool) -> dict[str, tuple[Opera
     if has_normals:
         light = (
             Operation("normal", "normal", {"normal": "n", "to_eye": "v"}),
+            *shadow_operations(source),
             Operation("cosines", _of_lights("cosines", ""), ("n_dot_l", "n_dot_h")),
             Operation("power", _of_lights("power", ""), ("power",)),
             Operation("diffuse", _of_lights("diffuse", "ambient"), ("diffuse_light",)),
@@ -321,7 +332,7 @@ def _listings(source: TraceSource, has_normals: bool) -> dict[str, Listing]:
         texture = replace(texture, given=given)
     light = _light_listing(source) if has_normals else product
     of_light = ("normal", "cosines", "power", "diffuse", "specular", "interpolated")
-    of_operation = {**dict.fromkeys(of_light, light), "product": product}
+    of_operation = {**dict.fromkeys(of_light, light), "product": product, **shadow_listings(source)}
     unlit, albedo = listing(unlit_color), listing(textured_albedo)
     found = {"plain": unlit, "textured": texture, "lit": product, "textured-lit": texture}
     found |= {"textured.color": unlit, "textured.albedo": albedo, "textured-lit.albedo": albedo}
@@ -365,4 +376,7 @@ def _buffers(
     if "diffuse_light" in columns:
         tracks.append(track("diffuse light", columns["diffuse_light"]))
         tracks.append(track("specular light", columns["specular_light"]))
+    for name, title in SHADOW_BUFFERS.items():
+        if name in columns:
+            tracks.append(track(title, columns[name].reshape(len(rows), -1)[:, -1], "scalar"))
     return tuple(tracks)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.records.arrays import Floats, Integers
+from core.resolved import resolve
 from core.scene import AnyScene, ClipScene, Scene, Texture
 from core.settings import Settings
 from core.transform.vertex_stage import VertexStage, transform_vertices
@@ -41,6 +42,8 @@ class Surface:
     """(F, 3) float64, light that it mirrors."""
     color: Floats
     """(F, 4) float64, albedo * diffuse_light + specular_light; alpha is the albedo's."""
+    light_share: Floats | None = None
+    """(F,) float64 from 0 to 1, what arrives of the light that casts shadows; ``None``: no shadow is looked for."""
 
 
 def shade_fragments(
@@ -63,20 +66,25 @@ def shade_fragments(
     """
     albedo = _albedo(scene, settings, layout, mesh, values, slopes)
     if "normal" in layout:
-        from core.stages.vertex_light import (
-            light,
-        )  # Here and below: only what is lit, or textured, waits for this import.
+        # Here and below: only what is lit, or textured, waits for these imports.
+        from core.shading.shading import shade
+        from core.stages.vertex_light import light
 
         assert isinstance(scene, Scene)
-        diffuse, specular = light(
-            scene, settings.shading, mesh, values[:, layout["position"]], values[:, layout["normal"]]
-        )
-    elif "diffuse_light" in layout:
-        diffuse, specular = values[:, layout["diffuse_light"]], values[:, layout["specular_light"]]
-    else:
+        share, position = None, values[:, layout["position"]]
+        if resolve(settings).shadow is not None:
+            from core.stages.passes import shadow_tests
+
+            found = shadow_tests(scene, settings, position)
+            share = None if found is None else found.share
+        diffuse, specular = light(scene, settings.shading, mesh, position, values[:, layout["normal"]], share)
+        color = shade(albedo, diffuse, specular)
+        return Surface(albedo, diffuse, specular, color, share)
+    if "diffuse_light" not in layout:
         return Surface(albedo, None, None, albedo)
     from core.shading.shading import shade
 
+    diffuse, specular = values[:, layout["diffuse_light"]], values[:, layout["specular_light"]]
     return Surface(albedo, diffuse, specular, shade(albedo, diffuse, specular))
 
 

@@ -61,6 +61,18 @@ def _moved_by_projection(scene: AnyScene) -> str:
     return "the matrix of a mesh of this scene is a projection itself" if is_moved else ""
 
 
+MOST_RAYS = 1 << 29
+"""Pixels times triangles that rays to the light may ask: some seconds."""
+
+
+def _many_rays(scene: AnyScene) -> str:
+    if not isinstance(scene, Scene):
+        return ""
+    triangles = sum(len(mesh.triangles) for mesh in scene.meshes)
+    asked = scene.size[0] * scene.size[1] * triangles
+    return f"this scene takes up to {asked:,}" if asked > MOST_RAYS else ""
+
+
 @dataclass(frozen=True, eq=False)
 class Need:
     """Something that a method needs of what it is given."""
@@ -80,6 +92,7 @@ NEEDS = {
     "triangles": Need("triangles to cut", _no_triangles),
     "perspective": Need("a perspective camera", _parallel_rays),
     "world-boxes": Need("meshes in world space, where w is 1", _moved_by_projection),
+    "few-rays": Need(f"at most {MOST_RAYS:,} tests of a ray against a triangle", _many_rays),
     "rectangle": Need("a rectangle as clip window", _polygon_as_window),
     "convex-window": Need("a convex clip window", _concave_window),
     "simple-rings": Need("rings that do not cross or touch", _meeting_rings),

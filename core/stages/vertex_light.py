@@ -182,14 +182,31 @@ def _given_values(meshes: tuple[Mesh, ...], vertex: Integers) -> dict[str, Float
 
 
 def light(
-    scene: Scene, shading: str, mesh: Integers, position: Floats, normal: Floats
+    scene: Scene,
+    shading: str,
+    mesh: Integers,
+    position: Floats,
+    normal: Floats,
+    share: Floats | None = None,
 ) -> tuple[Floats, Floats]:
-    """Return diffuse and specular light (F, 3) at surface points of meshes (F,), by the rule of a method of shading."""
+    """Return diffuse and specular light (F, 3) at surface points of meshes (F,), by the rule of a method of shading.
+
+    ``share`` (F,) of the light that casts shadows arrives; ``None``: all of it.
+    """
     eye, material = viewpoint(scene.camera, position), material_of(scene, mesh)
     rule = table.get("shading", shading).function
     if isinstance(rule, LightRule):
         return rule.light(position, normal, eye, scene.lights, material)
-    return light_surface(position, normal, eye, scene.lights, material, two_sided=False)
+    colors = None if share is None else arriving_colors(scene, share)
+    return light_surface(position, normal, eye, scene.lights, material, two_sided=False, colors=colors)
+
+
+def arriving_colors(scene: Scene, share: Floats) -> list[Floats]:
+    """Return what arrives of every light: its colour (3,), and (3, F) where ``share`` (F,) of it does."""
+    colors = [each.color for each in scene.lights]
+    number = scene.casting_light
+    colors[number] = colors[number][:, None] * share
+    return colors
 
 
 def material_of(scene: Scene, mesh: Integers) -> Material | Reflectance:

@@ -68,8 +68,10 @@ class Before(NamedTuple):
 
 
 _last: list[tuple[AnyScene, Settings, Geometry, dict[str, StageCount]]] = []
-"""The geometry of the last whole scene, with its counts: scenes never change, so another look at the same one, a pixel
-that is pointed at or the next redraw, starts from there."""
+"""The geometry of the last whole scenes, with its counts: scenes never change, so another look at the same one, a pixel
+that is pointed at or the next redraw, starts from there, also where a pass was drawn in between."""
+MOST_KEPT, KEPT_TRIANGLES = 3, 100_000
+"""Scenes whose geometry is kept, and triangles of those that are kept beside the last one."""
 
 
 def process_geometry(
@@ -101,7 +103,12 @@ def process_geometry(
                 counts[stage] = replace(known_counts[stage], seconds=0.0)
             return known.counted_in(counts["edges"])
     geometry = _process(scene, settings, counts, None, None)
-    _last[:] = [(scene, settings, geometry, {stage: replace(counts[stage]) for stage in GEOMETRY_STAGES})]
+    kept, total = [], 0
+    for entry in _last[: MOST_KEPT - 1]:
+        total += entry[2].assembled.triangle.size
+        kept += [entry] if total <= KEPT_TRIANGLES else []
+    latest = scene, settings, geometry, {stage: replace(counts[stage]) for stage in GEOMETRY_STAGES}
+    _last[:] = [latest, *kept]
     return geometry
 
 
@@ -143,16 +150,9 @@ def _process(
 
             grown = object_tree(scene, vertices, settings)
             objects = culled_objects(scene, vertices, settings, grown, plane_count)
+        drops = resolve(settings).drops_facing
         culled = (
-            cull(
-                assembled,
-                outcode,
-                doubled_area,
-                resolve(settings).drops_facing,
-                sight,
-                plane_count,
-                objects,
-            )
+            cull(assembled, outcode, doubled_area, drops, sight, plane_count, objects)
             if vertices.rings is None
             else cull_polygons(vertices, assembled, settings)
         )

@@ -15,6 +15,7 @@ from core.lines.measured import LINE
 from core.lines.measured_clipping import LINE_CLIPPING
 from core.methods import table
 from core.settings import families
+from core.shading.measured_shadows import SHADOW
 from core.study.family import StudyFamily
 from core.study.whole_picture import PIPELINE, standing_in
 from core.trees.measured import HIERARCHY
@@ -35,6 +36,7 @@ OWN = (
     DEPTH_STEPS,
     ANTIALIASING,
     SHADING,
+    SHADOW,
     VISIBILITY,
     LOOPS,
     CULL,

@@ -13,6 +13,7 @@ from lessons.mistakes import (
     scan_conversion,
     scan_lines,
     shaders,
+    shadows,
     smoothing,
     surfaces,
     transforms,
@@ -29,6 +30,7 @@ SHELF: dict[str, Twin] = {
         clipping,
         fragments,
         surfaces,
+        shadows,
         depths,
     )
     for twin in module.TWINS
@@ -42,6 +44,7 @@ RULES: dict[str, WrongRule] = {
         clipping,
         scan_conversion,
         surfaces,
+        shadows,
         depths,
         planes,
         scan_lines,

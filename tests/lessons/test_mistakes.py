@@ -14,6 +14,7 @@ from lessons.mistakes import (
     presenting,
     scan_conversion,
     scan_lines,
+    shadows,
     smoothing,
     surfaces,
     transforms,
@@ -44,8 +45,8 @@ def test_a_wrong_formula_shows_in_one_place_and_hides_in_another(rule: WrongRule
 
 
 def test_names_are_unique_and_unknown_ones_refused() -> None:
-    runs = {clipping, coverage, depths, scan_conversion, fragments, lines, textures}
-    formulas = {boxes, cutting, depths, planes, scan_conversion, scan_lines, smoothing}
+    runs = {clipping, coverage, depths, scan_conversion, fragments, lines, textures, shadows}
+    formulas = {boxes, cutting, depths, planes, scan_conversion, scan_lines, shadows, smoothing}
     formulas |= {surfaces, textures, transforms, visible_work, presenting}
     count = sum(len(module.TWINS) for module in runs) + sum(len(module.RULES) for module in formulas)
     assert len(MISTAKES) == count + len(SHADERS)

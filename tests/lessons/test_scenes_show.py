@@ -120,6 +120,7 @@ CLAIMS = {
     "z-fighting": lambda s: unlike(s, depth="z-24") > 300 and unlike(s, depth="z-16") == 0,
     "textured-floor": lambda s: unlike(s, interpolation="affine") > 1000,
     "lit-floor": lambda s: (brightest(s), brightest(s, shading="gouraud")) == (0.787, 0.221),
+    "box-in-light": lambda s: np.sum(s.column("shade", "light_share") == 0) == 118,
     "cube": lambda s: (s.document.triangle_count, len(np.unique(s.ids() // 2)) - 1) == (12, 3),
     "boxes-around": lambda s: (
         not unlike(s, object_culling="none") and np.sum(s.column("cull", "box_verdict") == "outside") >= 5

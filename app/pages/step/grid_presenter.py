@@ -27,6 +27,7 @@ from app.pages.step.stepping_presenter import SteppingPresenter
 from app.session.document import Document
 from app.session.document_edits import DragGestures
 from app.session.moment import Moment
+from app.session.passes import open_pass, passes_of
 from app.session.session import Session
 from core import STAGES
 from core.stages.declared import stage_of
@@ -123,6 +124,8 @@ class PixelMenu(QObject):
         self._add("Remove the breakpoint" if has_breakpoint else "Breakpoint", "breakpoint")
         self._add("Where does this value come from?", "origin")
         self._add("Ask for this value", "ask")
+        if passes_of(self._session.document):
+            self._add("Open the pass that it looks into", "pass")
         self.menu.addSeparator()
         for stage in STAGES[STAGES.index("raster") :]:
             self._add(f"Step here in {stage_of(stage).short_title}", stage)
@@ -144,6 +147,9 @@ class PixelMenu(QObject):
         elif name == "ask":
             self._session.set_pin(self._pixel)
             self.question_requested.emit()
+        elif name == "pass":
+            self._session.set_pin(self._pixel)
+            open_pass(self._session)
         else:
             self._session.set_pin(self._pixel)
             self._stepping.step_into(name, *self._pixel)

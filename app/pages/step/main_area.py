@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QBoxLayout, QSizePolicy, QStackedWidget, QTabBar, 
 from app.session.moment import Moment
 from app.session.session import Session
 from app.views.companions import COMPANIONS, Companion, NewDepths, ScreenBeside
+from app.views.pass_view import PassBeside
 from app.views.stage_views import StageViews
 from core.stages.declared import stage_of
 from widgets.basics.accessibility import announce
@@ -75,7 +76,8 @@ class MainArea(QWidget):
         self._add_view("compare", "A | B", self.compare_view)
         self.views_by_hand: dict[str, str] = {}
         self._moment, self._viewed_stage = session.moment, session.cursor.stage
-        self.companions = {stage: make(session) for stage, make in COMPANIONS.items()}
+        self.companions: dict[str, Companion] = {stage: make(session) for stage, make in COMPANIONS.items()}
+        self.companions["pass"] = PassBeside(session)
         """What stands beside a stage's own view, by stage."""
         self.beside = QStackedWidget(self)
         for companion in self.companions.values():
@@ -218,6 +220,8 @@ class MainArea(QWidget):
         stage = self._moment.cursor.stage
         if stage == "depth" and self.companions["order"].is_wanted(self._moment):
             return self.companions["order"]
+        if stage == "shade" and self.companions["pass"].is_wanted(self._moment):
+            return self.companions["pass"]
         return self.companions.get(stage)
 
     def _needs_all_the_room(self) -> bool:

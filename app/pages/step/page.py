@@ -23,6 +23,7 @@ from app.pages.step.scene_pane import DepthTablePresenter, SceneOutlinePresenter
 from app.pages.step.shader_presenter import ShaderPresenter, make_shader_pane
 from app.pages.step.stepping_presenter import EventChoice, SteppingPresenter
 from app.session.moment import Moment
+from app.session.passes import open_pass
 from app.session.session import Session
 from app.views.stage_views import StageViews
 from core.scene import AnyScene
@@ -354,6 +355,13 @@ class StepPage(Page):
         buffer = self.grid.buffer()
         if buffer is not None:
             self.inspector.go_to_writer(buffer.name, buffer.label)
+
+    def open_pass(self) -> None:
+        """Open what is drawn before the picture as a document of its own."""
+        try:
+            open_pass(self.session)
+        except ValueError as problem:
+            self.refuse(str(problem))
 
     @Slot(str)
     def show_variable(self, name: str) -> None:

@@ -18,11 +18,12 @@ from core.records.arrays import Floats, Integers
 from core.records.frame import StageCount
 from core.records.words import nouns
 from core.scene import AnyScene, Scene, Texture
-from core.settings import Settings
+from core.settings import WHOLE_NUMBERS, Settings
 from core.stages.closed_meshes import is_closed
 from core.stages.declared import STAGES
 from core.stages.fragment_color import vertex_stage
 from core.stages.geometry import Geometry
+from core.stages.passes import planned_passes
 from core.stages.vertices import process_geometry
 from core.study.planner.records import Fact, Tessellation, figure
 from core.study.planner.trials import far_triangles
@@ -115,6 +116,8 @@ class Seen:
     """Least and greatest window depth; ``None``: nothing is in view."""
     far: dict[str, Integers]
     """By depth method, the triangles of which a fragment may be lost, see `far_triangles`."""
+    bias: tuple[str, float] | None
+    """The shadow bias of the settings, and the share of the lit surface that needs no more; ``None``: no map."""
     texels: float | None
     """Longest step from pixel to pixel in a texture, at the corners of triangles; ``None``: there is none."""
     lean: float | None
@@ -155,6 +158,7 @@ def look(scene: AnyScene, everything: Settings, regions: tuple[tuple[int, int, i
         pixels=scene.size[0] * scene.size[1],
         depth=(float(depth.min()), float(depth.max())) if depth.size else None,
         far=far_triangles(geometry),
+        bias=_bias(scene, everything),
         texels=_longest_step(geometry, scene),
         lean=_lean(geometry),
         highlight=_highlight(scene) if "normal" in primitives.layout else None,
@@ -189,6 +193,11 @@ def facts_of(seen: Seen) -> tuple[Fact, ...]:
     if seen.corner_count < 3:
         # Without an area nothing faces away, and nothing is closed.
         facts = [fact for fact in facts if fact.name not in ("backs", "closed")]
+    if seen.bias is not None:
+        bias, share = seen.bias
+        facts.append(
+            Fact("bias", f"Lit surface that needs no more than a bias of {bias}", f"{100 * share:.3g} %")
+        )
     if seen.texels is not None:
         facts.append(Fact("texels", "Longest step of a pixel in a texture", f"{figure(seen.texels)} texels"))
     if seen.lean is not None:
@@ -200,6 +209,19 @@ def facts_of(seen: Seen) -> tuple[Fact, ...]:
             )
         )
     return tuple(facts)
+
+
+def _bias(scene: AnyScene, settings: Settings) -> tuple[str, float] | None:
+    """Return the shadow bias in words, and the share of the lit surface that it keeps out of its own shadow."""
+    if not planned_passes(scene, settings):
+        return None
+    from core.shading.measured_shadows import needed_biases  # Only scenes with a map wait for it.
+
+    assert isinstance(scene, Scene)
+    needed, share = needed_biases(scene, settings)
+    return WHOLE_NUMBERS["shadow_bias"].label.format(settings.shadow_bias), float(
+        share[needed <= settings.shadow_bias].sum()
+    )
 
 
 def _depth_range(seen: Seen) -> str:

@@ -144,7 +144,10 @@ def mesh_scenes(draw):
         near=draw(st.floats(0.1, 1)),
         far=draw(st.floats(2, 100)),
     )
-    lights = (DirectionalLight(np.array([0.0, -1.0, draw(numbers)])), PointLight(draw(numbers_of(3))))
+    lights = (
+        DirectionalLight(np.array([0.0, -1.0, draw(numbers)]), casts_shadow=draw(st.booleans())),
+        PointLight(draw(numbers_of(3))),
+    )
     return Scene((mesh,), camera, lights, (12, 9))
 
 
@@ -155,8 +158,9 @@ def states(draw):
     is_orthographic = isinstance(scene, Scene) and scene.camera.projection == "orthographic"
     if is_orthographic and "perspective" in table.get("depth", settings.depth).needs:
         settings = replace(settings, depth="z-float32")
-    if refusal("object_culling", settings.object_culling, scene):
-        settings = replace(settings, object_culling="none")
+    for family in ("object_culling", "shadow"):
+        if refusal(family, getattr(settings, family), scene):
+            settings = replace(settings, **{family: "none"})
     raster = TeachingRaster(draw(st.integers(1, 16)), draw(st.integers(1, 12)))
     document = Document(
         scene,

@@ -22,6 +22,7 @@ NEWER = {
     **{"polygon_clipping": "none", "polygon_fill": "even-odd"},
     **{"object_culling": "none", "hierarchy": "bvh", "leaf_size": 8, "octree_depth": 5},
     "depth_test_time": "late",
+    **{"shadow": "none", "map_size": 64, "shadow_bias": 16},
 }
 """What settings of families have that are younger than the files: their defaults."""
 

@@ -176,6 +176,9 @@ def traces() -> dict[str, dict[str, Trace]]:
     for name in table.names("hierarchy"):
         asked = Settings(object_culling="frustum", hierarchy=name, leaf_size=16, octree_depth=2)
         windows[f"boxes {name}"] = trace(boxes, asked, 50, (30, 20, *WINDOW), before="cleared")
+    for name in table.names("shadow")[1:]:
+        shaded = Settings(shadow=name, map_size=16)
+        windows[f"shadow {name}"] = trace(make_scene("box-in-light"), shaded, 0, (27, 24, 6, 2))
     few = replace(make_scene("cube"), size=(32, 24))
     in_tree = Settings(visibility="ray-casting-tree", hierarchy="bvh", leaf_size=2)
     windows["rays in a tree"] = trace(few, in_tree, None, (0, 0, 32, 24), before="cleared")

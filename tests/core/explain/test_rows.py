@@ -81,7 +81,7 @@ def test_questions_are_finished_and_have_the_right_answer() -> None:
                 elif name in ANSWERS and not {"has_stepped", "is_inside", "threshold"} & {*values}:
                     assert asked.answer == float(np.asarray(ANSWERS[name](values))), (asked, values)
                 assert not asked.choices or asked.answer in range(len(asked.choices)), asked
-    assert asked_about == set(STAGES) - {"shade"}
+    assert asked_about == set(STAGES)
 
 
 @pytest.mark.parametrize("line", table.names("line"))

@@ -15,6 +15,7 @@ from core.methods import table
 from core.shading.lighting import blinn_phong, plain_lights, plain_material
 from core.shading.shading import shaded_color, unlit_color
 from core.shading.traced import slope_kind
+from core.stages.passes import lamp_of
 from core.stages.vertex_light import viewpoint
 from core.textures.footprints import slopes_at, slopes_of_one_value
 from core.textures.look_up import bilinear_color, nearest_color, uses_mipmaps
@@ -121,15 +122,31 @@ def check_light(traced: Trace, found: StageTrace) -> None:
         eye = np.broadcast_to(viewpoint(scene.camera, position), (1, 3))[0]
         normal = values[row, layout["normal"]]
         material = scene.meshes[found.extra["mesh"][row]].material
+        # In a shadow less arrives of a light than its colour.
+        arriving = zip(plain_lights(scene.lights), found.columns["light_colors"][row].tolist(), strict=True)
+        lights_here = [[place, is_point, color] for (place, is_point, _), color in arriving]
+        if "light_share" in found.columns:
+            check_shadow(traced, row, tuple(position[0].tolist()))
         with lines_that_run() as ran:
             lights = blinn_phong(
                 tuple(position[0].tolist()),
                 tuple(normal.tolist()),
                 tuple(eye.tolist()),
-                plain_lights(scene.lights),
+                lights_here,
                 plain_material(material),
                 False,
             )
         check_marks(found, row, ran)
         assert equal(lights[0], found.columns["diffuse_light"][row])
         assert equal(lights[1], found.columns["specular_light"][row])
+
+
+def check_shadow(traced: Trace, row: int, position: tuple[float, ...]) -> None:
+    """Execute the listing of the shadow test at a row."""
+    found, settings = traced.stage("shade"), traced.source.settings
+    lamp, listed = lamp_of(traced.source.scene, settings), table.get("shadow", settings.shadow).listing
+    given = (lamp.triangles.tolist(),) if lamp.depth is None else (lamp.depth.tolist(), lamp.bias)
+    with lines_that_run() as ran:
+        share = listed(position, lamp.to_map.tolist(), *given)
+    check_marks(found, row, ran)
+    assert equal(share, found.columns["light_share"][row])

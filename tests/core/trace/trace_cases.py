@@ -91,6 +91,7 @@ LEFT_OUT = (
     "polygon-window",
     "z-fighting",
     "lit-floor",
+    "box-in-light",
     "boxes-around",
     "two-boxes",
     "teapot",

@@ -197,6 +197,20 @@ def test_depth_test_time() -> None:
         assert {point.errors["wrong-visible"] for point in found.values()} == {0}
 
 
+def test_shadow() -> None:
+    # Without a bias half of the floor shadows itself; at the bound of a plane nearly nothing does; five times as much
+    # loses the whole shadow on 16 texels. Rays are the reference.
+    found = {bias: run("shadow", bias=bias) for bias in (0, 11, 55)}
+    dark, lit = (
+        {bias: each["map"].errors[name] for bias, each in found.items()}
+        for name in ("wrongly-dark", "wrongly-lit")
+    )
+    assert dark[0] > 300_000 > 6_000 > dark[11] > dark[55]
+    assert lit[55] > lit[11] >= lit[0] > 0
+    assert set(found[11]["rays"].errors.values()) == {0}
+    assert found[11]["map"].counts["texels of the map"] == 256
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_visibility(seed: int) -> None:
     # Ray casting compares exactly, on the pixels that every method covers: nothing can be wrong. Its loop over rays and

@@ -1,0 +1,60 @@
+"""What is drawn before the picture, beside it: the depths that the light sees, and the texels that a pixel looks up."""
+
+import numpy as np
+from PySide6.QtCore import QPoint, Slot
+from PySide6.QtWidgets import QMenu, QWidget
+
+from app.session.moment import Moment
+from app.session.passes import looked_up_texels, open_pass, passes_of, shaded_row
+from app.views.companions import Companion
+from core.stages.passes import drawn_depth
+from widgets.basics.controls import column_layout, text_label
+from widgets.grid.layers import GridBuffer
+from widgets.grid.marks import StepMark
+from widgets.grid.pixel_grid import PixelGrid
+
+
+class PassBeside(Companion):
+    """The shadow map; a right click opens it."""
+
+    name = "pass"
+    is_alike = True
+
+    def make_widget(self) -> QWidget:
+        """Return the grid below its title."""
+        pane = QWidget()
+        self.grid = PixelGrid(pane)
+        self.grid.setAccessibleName("Shadow map: the depths that the light sees")
+        self.grid.pixel_menu_requested.connect(self._offer)
+        self.menu = QMenu(pane)
+        self.menu.addAction("Open this pass").triggered.connect(self._open)
+        self._title = text_label("", pane, role="muted")
+        layout = column_layout(pane, 4)
+        layout.addWidget(self._title)
+        layout.addWidget(self.grid, 1)
+        return pane
+
+    def is_wanted(self, moment: Moment) -> bool:
+        """Return whether the picture looks into a map."""
+        return bool(passes_of(moment.document))
+
+    def made_from(self) -> object:
+        """Return trace and the row that looks into the map."""
+        return self.moment.trace, shaded_row(self.moment)
+
+    def draw(self) -> None:
+        """Show the map, with the texels marked."""
+        planned = passes_of(self.moment.document)[0]
+        width, height = planned.scene.size
+        self._title.setText(f"{planned.title}: depth, {width} × {height} texels")
+        self.grid.show_buffer(GridBuffer("shadow map", drawn_depth(planned), range=(0.0, 1.0), title="depth"))
+        texels = looked_up_texels(self.moment, shaded_row(self.moment))
+        self.grid.show_step(StepMark(np.array(texels)) if texels else StepMark())
+
+    @Slot(int, int, QPoint)
+    def _offer(self, _column: int, _row: int, place: QPoint) -> None:
+        self.menu.popup(place)
+
+    @Slot()
+    def _open(self) -> None:
+        open_pass(self.session)

@@ -1,0 +1,60 @@
+"""The pass of a shadow map stands beside the picture, and opens at the texel that the pixel looks up."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.session.document import open_document
+from app.session.passes import NO_PASS, looked_up_texels, open_pass, passes_of, shaded_row
+from app.session.session import Session
+from app.views.pass_view import PassBeside
+from core import Settings
+from lessons.scenes import make_scene
+
+SHADOWED = replace(Settings(), shadow="map", map_size=16, fill="bounding-box")
+
+
+def session_of(settings: Settings = SHADOWED) -> Session:
+    scene = replace(make_scene("box-in-light"), size=(32, 24))
+    return Session(open_document(scene, "Box in the light", settings=settings))
+
+
+def test_the_map_stands_beside_shade_with_the_texel_of_the_pixel(qtbot):
+    session = session_of()
+    beside = PassBeside(session)
+    qtbot.addWidget(beside.widget)
+    stage = session.trace.stage("shade")
+    row = int(np.flatnonzero(stage.columns["light_share"] == 0)[0])
+    session.set_stage("shade")
+    session.set_pin(tuple(stage.pixel[row].tolist()))
+    beside.refresh(session.moment)
+    at = shaded_row(session.moment)
+    assert beside.is_wanted(session.moment)
+    assert beside.grid.buffer().values.shape == (16, 16)
+    assert looked_up_texels(session.moment, at) == [tuple(stage.columns["lamp_texels"][at][0].tolist())]
+    session.set_predicting(True)
+    assert shaded_row(session.moment) == -1
+
+
+def test_a_pass_opens_with_its_texel_pinned_and_undo_leads_back(qtbot):
+    session = session_of()
+    before = session.document
+    stage = session.trace.stage("shade")
+    session.set_pin(tuple(stage.pixel[5].tolist()))
+    texel = stage.columns["lamp_texels"][shaded_row(session.moment)][0].tolist()
+    open_pass(session)
+    assert session.document.scene is passes_of(before)[0].scene
+    assert (session.document.title, session.cursor.stage) == ("What light 0 sees", "depth")
+    assert list(session.pin) == texel
+    session.undo()
+    assert session.document is before
+
+
+def test_without_a_pass_there_is_a_sentence(qtbot):
+    session = session_of(Settings(fill="bounding-box"))
+    before = session.document
+    with pytest.raises(ValueError, match=NO_PASS):
+        open_pass(session)
+    assert session.document is before
+    assert not PassBeside(session).is_wanted(session.moment)
