@@ -18,13 +18,8 @@ from core.pipeline import render
 from core.records.listing import listing
 
 EARLIER = Path(__file__).parent / "earlier"
-NEWER = {
-    **{"polygon_clipping": "none", "polygon_fill": "even-odd"},
-    **{"object_culling": "none", "hierarchy": "bvh", "leaf_size": 8, "octree_depth": 5},
-    "depth_test_time": "late",
-    **{"shadow": "none", "map_size": 64, "shadow_bias": 16},
-}
-"""What settings of families have that are younger than the files: their defaults."""
+NEWER = asdict(Settings())
+"""What settings have that are younger than the files: their defaults."""
 
 
 @pytest.mark.parametrize(

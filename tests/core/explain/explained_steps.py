@@ -178,7 +178,7 @@ def traces() -> dict[str, dict[str, Trace]]:
         windows[f"boxes {name}"] = trace(boxes, asked, 50, (30, 20, *WINDOW), before="cleared")
     for name in table.names("shadow")[1:]:
         shaded = Settings(shadow=name, map_size=16)
-        windows[f"shadow {name}"] = trace(make_scene("box-in-light"), shaded, 0, (27, 24, 6, 2))
+        windows[f"shadow {name}"] = trace(make_scene("box-in-light"), shaded, 0, (22, 26, 8, 1))
     few = replace(make_scene("cube"), size=(32, 24))
     in_tree = Settings(visibility="ray-casting-tree", hierarchy="bvh", leaf_size=2)
     windows["rays in a tree"] = trace(few, in_tree, None, (0, 0, 32, 24), before="cleared")
