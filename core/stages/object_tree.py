@@ -6,7 +6,7 @@ from typing import TypeGuard
 import numpy as np
 
 from core.culling.object_culling import ObjectCulling, cull_objects, view_planes
-from core.methods import table
+from core.methods import Method
 from core.numeric.watched import work
 from core.records.arrays import Floats, Integers
 from core.records.box_tree import BoxTree, Objects, checked_objects
@@ -52,13 +52,13 @@ def object_tree(scene: AnyScene, vertices: VertexStage, settings: Settings) -> O
 
 
 KEPT = 2
-_Rule = tuple[str, int, int]
+_Rule = tuple[Method, int, int]
 _last: list[tuple[World | VertexStage, _Rule, ObjectTree]] = []
 """The last `KEPT` trees: only the camera moves more often than meshes do, and vertices never change."""
 
 
 def _rule(settings: Settings) -> _Rule:
-    return settings.hierarchy, settings.leaf_size, settings.octree_depth
+    return resolve(settings).method("hierarchy"), settings.leaf_size, settings.octree_depth
 
 
 def _is_in_world(scene: AnyScene) -> TypeGuard[Scene]:
@@ -77,15 +77,14 @@ def expected_tree(scene: AnyScene, triangle_count: int, settings: Settings) -> B
     rule = _rule(settings)
     if _is_in_world(scene) and _kept(place_meshes(scene.meshes), rule) is not None:
         return None
-    return expected_build(rule[0], triangle_count, *rule[1:])
+    return expected_build(rule[0].name, triangle_count, *rule[1:])
 
 
 def _grown(corners: Floats, mesh: Integers, rule: _Rule, is_world: bool) -> ObjectTree:
     """Return the tree over primitives of corners (T, C, 3); whoever watches hears before what it takes."""
     objects = checked_objects(corners.min(axis=1), corners.max(axis=1), mesh)
-    build = table.get("hierarchy", rule[0]).function
-    with work(expected_build(rule[0], len(objects), *rule[1:]).text):
-        return ObjectTree(objects, build(objects, *rule[1:]), is_world)
+    with work(expected_build(rule[0].name, len(objects), *rule[1:]).text):
+        return ObjectTree(objects, rule[0].function(objects, *rule[1:]), is_world)
 
 
 def culled_objects(

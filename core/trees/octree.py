@@ -10,7 +10,7 @@ LMU, *Computer Graphics 1*, "BVH with AABB": "Octree: #partitions explode (*8); 
 partitions".
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -104,14 +104,26 @@ def octree_listing(
     },
 )
 def octree(objects: Objects, leaf_size: int, octree_depth: int) -> BoxTree:
-    """Halve a cube around all objects along all axes, while more than ``leaf_size`` touch a part of it.
+    """List each object in all cells that it touches."""
+    return grow_octree(objects, leaf_size, octree_depth, touching)
+
+
+def grow_octree(
+    objects: Objects,
+    leaf_size: int,
+    octree_depth: int,
+    listed_in: Callable[[Objects, Integers, Floats, Floats], list[Integers]],
+) -> BoxTree:
+    """Halve a cube around all objects along all axes, while a part of it lists more than ``leaf_size``.
+
+    ``listed_in`` says which objects the octants of a cell list, as `touching` does.
 
     Reports the share of the cube that is done to `core.numeric.watched.report`.
 
     Raises
     ------
     ValueError
-        If more than `MOST_REFERENCES` objects would be listed, each as often as there are leaves that it touches.
+        If more than `MOST_REFERENCES` objects would be listed, each as often as there are leaves that list it.
     """
     lower, upper, depth, own = list[Floats](), list[Floats](), list[int](), list[Integers]()
     none, listed, share = np.empty(0, np.int64), 0, 0.0
@@ -130,7 +142,7 @@ def octree(objects: Objects, leaf_size: int, octree_depth: int) -> BoxTree:
             continue
         report(share)
         _, lows, highs = octants_of(low, high)
-        parts = touching(objects, items, lows, highs)
+        parts = listed_in(objects, items, lows, highs)
         pending += [(lows[k], highs[k], parts[k], level + 1) for k in reversed(range(8))]
         if listed + sum(len(waiting) for _, _, waiting, _ in pending) > MOST_REFERENCES:
             raise ValueError(

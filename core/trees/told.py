@@ -25,7 +25,7 @@ def _held(step: StepValues) -> str:
 def bound(step: StepValues) -> Said:
     """The box around what a node holds."""
     low, high = vector_text(step.vector("node_lower")), vector_text(step.vector("node_upper"))
-    return f"Node {step.whole('node')} holds {_held(step)}: the box around them goes from {low} to {high}."
+    return f"Node {step.whole('node')} holds {_held(step)}: its box goes from {low} to {high}."
 
 
 @explains("cull.list-leaf.leaf")
@@ -89,15 +89,14 @@ def place(step: StepValues) -> Said:
     )
 
 
-def _touched(step: StepValues) -> str:
-    touch = "touches" if step.whole("object_count") == 1 else "touch"
-    return f"Node {step.whole('node')}: {_held(step)} {touch} its cell"
+def _listed(step: StepValues) -> str:
+    return f"Node {step.whole('node')}: its cell lists {_held(step)}"
 
 
 @explains("cull.octree-leaf.leaf")
 def cell(step: StepValues) -> Said:
     """A cell that is not cut: few enough, or too deep."""
-    text, size, deep = _touched(step), step.whole("leaf_size"), step.whole("node_depth")
+    text, size, deep = _listed(step), step.whole("leaf_size"), step.whole("node_depth")
     why = f"and a leaf may hold {size}"
     if step.whole("object_count") > size:
         why = f"more than {size}, but it is {deep} deep, the limit"
@@ -109,7 +108,7 @@ def full(step: StepValues) -> Said:
     """A cell with too many."""
     size, deep, limit = step.whole("leaf_size"), step.whole("node_depth"), step.whole("octree_depth")
     return (
-        f"{_touched(step)}, more than {size}, and it is {deep} deep of {limit}: it is halved along all axes."
+        f"{_listed(step)}, more than {size}, and it is {deep} deep of {limit}: it is halved along all axes."
     )
 
 
@@ -124,13 +123,12 @@ def middle(step: StepValues) -> Said:
 
 @explains("cull.octree-node.parts")
 def parts(step: StepValues) -> Said:
-    """How many objects touch each octant."""
+    """How many objects each octant lists."""
     counts = [int(value) for value in step.vector("octant_counts")]
     listed = ", ".join(str(count) for count in counts)
-    text = (
-        f"Node {step.whole('node')}: its octants are touched by {listed} of {_held(step)}, and list {sum(counts)}: "
-        f"each is listed in every octant that it touches"
-    )
+    text = f"Node {step.whole('node')}: its octants list {listed} of {_held(step)}"
+    if sum(counts) > step.whole("object_count"):
+        text += f", {sum(counts)} in all: what touches several is listed in each of them"
     empty = counts.count(0)
     return (
         f"{text}; {counted(empty, 'octant')} {'is' if empty == 1 else 'are'} empty." if empty else f"{text}."

@@ -1,12 +1,21 @@
 """Mistakes with boxes of objects: asked by planes and by rays, and cut into trees."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from itertools import product
 from typing import Any
 
+import numpy as np
+
+from core import Settings
+from core.records.arrays import Floats, Integers
+from core.records.box_tree import BoxTree, Objects
+from core.trees.bounding_volumes import bvh
+from core.trees.octree import grow_octree
 from lessons.mistakes.transforms import Vector
-from lessons.mistakes.twin import WrongRule
+from lessons.mistakes.twin import Case, Twin, WrongRule
+from lessons.small_scenes import triangle_scene
 
 Box = tuple[Sequence[Any], Sequence[Any]]
 """Least and greatest coordinates."""
@@ -93,6 +102,54 @@ def entries_by_centre(spans: Sequence[tuple[int, int]], middle: int) -> Vector:
     return below, len(spans) - below
 
 
+def octants_of_centres(objects: Objects, items: Integers, lower: Floats, upper: Floats) -> list[Integers]:
+    """List each of ``items`` (P,) in the one octant (8, 3) that its centre lies in."""
+    centres = objects.lower[items] / 2 + objects.upper[items] / 2
+    octant = (centres >= upper[0]) @ np.array([1, 2, 4])
+    return [items[octant == k] for k in range(8)]
+
+
+def octree_of_centres(objects: Objects, leaf_size: int, octree_depth: int) -> BoxTree:
+    """Grow an octree that lists each object once."""
+    return grow_octree(objects, leaf_size, octree_depth, octants_of_centres)
+
+
+def boxes_of_centres(objects: Objects, leaf_size: int, octree_depth: int) -> BoxTree:
+    """Bound only the centres of what each node of a hierarchy holds."""
+    tree, centres = bvh(objects, leaf_size, octree_depth), objects.lower / 2 + objects.upper / 2
+    held = [centres[tree.items_of(node)] for node in range(len(tree))]
+    lower, upper = (np.array([find(each, axis=0) for each in held]) for find in (np.min, np.max))
+    return replace(tree, lower=lower, upper=upper)
+
+
+IN_OCTREE = Settings(visibility="ray-casting-tree", hierarchy="octree", leaf_size=1, octree_depth=2)
+IN_BOXES = Settings(visibility="ray-casting-tree", hierarchy="bvh", leaf_size=1)
+NEIGHBOURS = triangle_scene([[(1, 1), (11, 1), (1, 9)], [(11, 2), (11, 9), (2, 9)]], (12, 10))
+ONE_PIXEL = triangle_scene([[(4, 4), (5, 4), (4.5, 5)]], (9, 9))
+
+TWINS = (
+    Twin(
+        "octant-of-centre",
+        "Each object was listed in the part that its centre lies in. An octree lists it in every part that it "
+        "touches, or rays would miss what reaches over the border.",
+        Case(NEIGHBOURS, IN_OCTREE),
+        Case(ONE_PIXEL, IN_OCTREE),
+        lambda settings: (
+            settings.replaced(hierarchy=octree_of_centres) if settings.hierarchy == "octree" else settings
+        ),
+    ),
+    Twin(
+        "boxes-of-centres",
+        "The boxes were put around the centres of the objects. A box must hold all of each object, or what is seen "
+        "is dropped with its box.",
+        Case(NEIGHBOURS, IN_BOXES),
+        Case(ONE_PIXEL, IN_BOXES),
+        lambda settings: (
+            settings.replaced(hierarchy=boxes_of_centres) if settings.hierarchy == "bvh" else settings
+        ),
+    ),
+)
+"""Trees that lose what is seen."""
 RULES = (
     WrongRule(
         "nearest-corner-asked",
@@ -140,9 +197,8 @@ RULES = (
         ((0, 1, 19, 20),),
     ),
     WrongRule(
-        "octant-of-centre",
-        "Each object was listed in the part that its centre lies in. An octree lists it in every part that it "
-        "touches, or rays would miss what reaches over the border.",
+        TWINS[0].name,
+        TWINS[0].sentence,
         entries,
         entries_by_centre,
         (((0, 3), (4, 9), (6, 8)), 5),

@@ -4,7 +4,15 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
-from lessons.mistakes.twin import WrongRule
+import numpy as np
+
+from core import Settings
+from core.records.arrays import Floats
+from core.records.primitives import DrawingOrder
+from core.visibility.bsp import bsp
+from lessons.mistakes.twin import Case, Twin, WrongRule
+from lessons.small_scenes import triangle_scene
+from lessons.window_scenes import circle_of_bars
 
 
 class Node(NamedTuple):
@@ -61,20 +69,66 @@ def pieces_without_zero(distances: Sequence[int]) -> tuple[int, int]:
     return pieces_of_a_cut([d or -1 for d in distances])
 
 
+def bsp_from_the_front(clip: Floats) -> DrawingOrder:
+    """Paint the pieces of a tree from front to back."""
+    drawing = bsp(clip)
+    pieces = drawing.pieces and drawing.pieces.take(np.arange(len(drawing.order))[::-1])
+    return DrawingOrder(drawing.order[::-1], False, pieces=pieces)
+
+
+def painters_after_division(clip: Floats) -> DrawingOrder:
+    """Sort by the mean of z/w."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        depth = (clip[:, :, 2] / clip[:, :, 3]).sum(axis=1)
+    return DrawingOrder(np.argsort(-depth, kind="stable"), False)
+
+
+def _two(w: Sequence[Sequence[float]]) -> Case:
+    """Return two triangles that overlap, with these w of their corners, between planes at 1 and 10."""
+    depth = [[10 * (distance - 1) / (9 * distance) for distance in each] for each in w]
+    corners = [[(1, 1), (11, 1), (1, 9)], [(0, 2), (11, 2), (5, 9)]]
+    colors = [[color] * 3 for color in ((1, 0, 0, 1), (0, 0, 1, 1))]
+    return Case(triangle_scene(corners, (12, 10), depth, w, colors), Settings(visibility="painters"))
+
+
+_IN_TREE = Settings(visibility="bsp")
+TWINS = (
+    Twin(
+        "front-and-back-swapped",
+        "The half with the eye was painted first. Paint the half without the eye first: it can hide nothing.",
+        Case(circle_of_bars(), _IN_TREE),
+        Case(triangle_scene([[(1, 1), (11, 1), (1, 9)]], (12, 10)), _IN_TREE),
+        lambda settings: (
+            settings.replaced(visibility=bsp_from_the_front) if settings.visibility == "bsp" else settings
+        ),
+    ),
+    Twin(
+        "sorted-after-division",
+        "Depths were compared after the division, which puts a corner behind the eye beyond all others. Sort by w.",
+        _two([[1, 1, 9], [3, 3, 3]]),
+        _two([[4, 4, 4], [3, 3, 3]]),
+        lambda settings: (
+            settings.replaced(visibility=painters_after_division)
+            if settings.visibility == "painters"
+            else settings
+        ),
+    ),
+)
+"""Wrong orders of drawing."""
 _SMALL = Node("A", True, Node("B", True), Node("C", False))
 
 RULES = (
     WrongRule(
-        "front-and-back-swapped",
-        "The half with the eye was painted first. Paint the half without the eye first: it can hide nothing.",
+        TWINS[0].name,
+        TWINS[0].sentence,
         painted_back_to_front,
         painted_front_to_back,
         (_SMALL,),
         (Node("A", True),),
     ),
     WrongRule(
-        "sorted-after-division",
-        "Depths were compared after the division, which puts a corner behind the eye beyond all others. Sort by w.",
+        TWINS[1].name,
+        TWINS[1].sentence,
         sorted_far_to_near,
         sorted_after_division,
         (((2, 2, -1), (3, 3, 3)), 1, 9),

@@ -32,6 +32,8 @@ SHELF: dict[str, Twin] = {
         surfaces,
         shadows,
         depths,
+        planes,
+        boxes,
     )
     for twin in module.TWINS
 }
@@ -55,7 +57,7 @@ RULES: dict[str, WrongRule] = {
     )
     for rule in module.RULES
 }
-"""Wrong formulas, stage by stage."""
+"""Wrong formulas, stage by stage; a run of the shelf with the same name makes the same mistake."""
 
 SHADERS: dict[str, ShaderMistake] = {mistake.name: mistake for mistake in shaders.SHELF}
 """Wrong lines of shaders."""

@@ -59,8 +59,12 @@ def explaining_run(question: Question, response: Response) -> StepRequest | None
 
 
 def is_stepped(question: Question, mistake: str) -> bool:
-    """Return whether the run with a mistake can be stepped beside the right one."""
-    return isinstance(question.draft.scene, ClipScene) and mistake in SHELF and SHELF[mistake].is_run
+    """Return whether the run with a mistake can be stepped beside the right one.
+
+    A question without a scene has the one that shows the mistake.
+    """
+    has_scene = question.draft.scene is None or isinstance(question.draft.scene, ClipScene)
+    return has_scene and mistake in SHELF and SHELF[mistake].is_run
 
 
 def is_pictured(question: Question, mistake: str) -> bool:
@@ -84,10 +88,13 @@ def refuting_step(refutation: Refutation, title: str) -> StepRequest:
 
 def faulty_run(question: Question, mistake: str) -> StepRequest | None:
     """Return what steps the right run beside that with a mistake, from their first difference on."""
+    twin = SHELF[mistake]
     request, scene = right_run(question), question.draft.scene
+    if scene is None:
+        scene, settings = twin.shows.scene, twin.shows.settings
+        request = StepRequest(Opening(scene, settings, question.template.stage), question.template.title)
     if request is None or not isinstance(scene, ClipScene):
         return None
-    twin = SHELF[mistake]
     return StepRequest(
         request.opening,
         request.title,

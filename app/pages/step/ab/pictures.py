@@ -264,6 +264,9 @@ def divergence_text(found: "Divergence | None", first: Trace, second: Trace) -> 
     if found.variable:
         return _shader_text(found, first, second)
     where = f"pixel {found.pixel}" if found.pixel is not None else f"triangle {found.triangle}"
+    nodes, row = first.stage(found.stage).columns.get("node"), found.rows[0]
+    if found.triangle < 0 and nodes is not None and row is not None:
+        where = f"node {nodes[row]} of the tree"
     if None in found.rows:
         said = f"{'AB'[found.rows.index(None)]} has no step there"
     else:
