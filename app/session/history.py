@@ -59,7 +59,12 @@ class History(Generic[State]):
         self._held = held
         self._states = [state]
         self._keys: list[str] = [""]
-        self._bytes = [held(state)]
+        self._bytes: list[Mapping[int, int]] = []
+        self._owners: dict[int, list[int]] = {}
+        """By identity of what is held: how many of the values hold it, and its bytes."""
+        self._total = 0
+        """Bytes that all values hold together."""
+        self._count(held(state))
         self._at = 0
 
     @property
@@ -89,25 +94,39 @@ class History(Generic[State]):
             self._drop(slice(self._at, None))
         else:
             # What is shown computes more than a new value holds.
-            self._bytes[-1] = self._held(self._states[-1])
+            self._discount(self._bytes.pop())
+            self._count(self._held(self._states[-1]))
         self._states.append(state)
         self._keys.append(merge)
-        self._bytes.append(self._held(state))
-        self._drop(slice(self._excess()))
+        self._count(self._held(state))
+        while self._has_too_many():
+            self._drop(slice(1))
         self._at = len(self._states) - 1
 
-    def _excess(self) -> int:
-        """Return how many of the oldest values are too many."""
-        kept = dict(self._bytes[-1])
-        room = BYTES_LIMIT
-        for count, held in enumerate(reversed(self._bytes[:-1]), 1):
-            room -= sum(size for identity, size in held.items() if identity not in kept)
-            kept |= held
-            if (room < 0 and count > 1) or count >= LIMIT:
-                return len(self._states) - count
-        return 0
+    def _has_too_many(self) -> bool:
+        """Return whether the oldest value is one too many."""
+        earlier = self._total - sum(self._owners[identity][1] for identity in self._bytes[-1])
+        return len(self._states) > LIMIT or (len(self._states) > 2 and earlier > BYTES_LIMIT)
+
+    def _count(self, held: Mapping[int, int]) -> None:
+        """Keep what the newest value holds."""
+        self._bytes.append(held)
+        for identity, size in held.items():
+            owned = self._owners.setdefault(identity, [0, size])
+            self._total += 0 if owned[0] else owned[1]
+            owned[0] += 1
+
+    def _discount(self, held: Mapping[int, int]) -> None:
+        for identity in held:
+            owned = self._owners[identity]
+            owned[0] -= 1
+            if not owned[0]:
+                self._total -= owned[1]
+                del self._owners[identity]
 
     def _drop(self, which: slice) -> None:
+        for held in self._bytes[which]:
+            self._discount(held)
         del self._states[which], self._keys[which], self._bytes[which]
 
     @property

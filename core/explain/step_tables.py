@@ -8,6 +8,7 @@ row of the trace, and a column for each number.
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -55,6 +56,10 @@ class FilledColumn:
 
 _FORMS: dict[str, list[Form]] = {}
 """By stage."""
+LARGEST = 4
+"""Units of work with the most rows whose tables say how much room the others need."""
+_KEPT: WeakKeyDictionary[StageTrace, list[StepTable]] = WeakKeyDictionary()
+"""Their tables, by trace."""
 
 
 def tabulates(stage: str, kinds: Sequence[str], level: Level = Level.GROUP) -> Callable[[Make], Make]:
@@ -95,8 +100,14 @@ def step_table(trace: StageTrace, position: int) -> StepTable | None:
     return None
 
 
-def largest_tables(trace: StageTrace, count: int = 4) -> list[StepTable]:
-    """Return, filled to the end, the tables of so many units of work of a stage that have the most rows."""
+def largest_tables(trace: StageTrace) -> list[StepTable]:
+    """Return, filled to the end, the tables of the `LARGEST` units of work of a stage: made once, by any thread."""
+    if trace not in _KEPT:
+        _KEPT[trace] = _largest_tables(trace)
+    return _KEPT[trace]
+
+
+def _largest_tables(trace: StageTrace) -> list[StepTable]:
     load_subjects()
     steps, found = trace.steps, []
     for form in _FORMS.get(trace.stage, ()):
@@ -106,7 +117,7 @@ def largest_tables(trace: StageTrace, count: int = 4) -> list[StepTable]:
             continue
         ends = _unit_ends(trace, form.level)
         units = np.searchsorted(ends, rows, "right")
-        largest = np.argsort(-np.bincount(units), kind="stable")[:count]
+        largest = np.argsort(-np.bincount(units), kind="stable")[:LARGEST]
         for unit in np.intersect1d(largest, units).tolist():
             after = int(ends[unit]) if unit < len(ends) else steps.row_count
             found.append(form.make(trace, rows[units == unit], steps.position_after(after - 1)))

@@ -368,6 +368,8 @@ class ChoiceBox(QComboBox):
         option.rect = QRect(0, 0, width, self.height())
         room = max(self._text_part(option).width(), 1)
         metrics, rest, rows = self.fontMetrics(), self.currentText(), list[str]()
+        if metrics.horizontalAdvance(rest) <= room:
+            return [rest]
         layout = QTextLayout(rest, self.font())
         layout.beginLayout()
         while len(rows) < self._most_rows - 1 and metrics.horizontalAdvance(rest) > room:

@@ -1,6 +1,7 @@
 """Names of the vertices and edges of the primitive in focus, where they hide neither numbers nor each other."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from math import cos, pi, sin
 
 import numpy as np
 from PySide6.QtCore import QLineF, QPointF, QRectF
@@ -14,7 +15,7 @@ _NAMED_LENGTH = 7.0
 """Least length of an edge that is named, in heights of the text."""
 _ALONG = (0.5, 0.4, 0.6, 0.3, 0.7)
 """Places along an edge at which its name may stand, the best first."""
-_TURNS = tuple(sign * turn * np.pi / 6 for turn in range(5) for sign in (1, -1))
+_TURNS = tuple(sign * turn * pi / 6 for turn in range(5) for sign in (1, -1))
 """Angles by which the name of a vertex may stand beside the direction away from the triangle, the best first."""
 
 
@@ -52,10 +53,16 @@ def name_boxes(
     return names
 
 
-def _best(boxes: Sequence[QRectF], names: Sequence[NameBox], is_free: Callable[[QRectF], bool]) -> QRectF:
+def _best(boxes: Iterable[QRectF], names: Sequence[NameBox], is_free: Callable[[QRectF], bool]) -> QRectF:
     """Return the first box that is free, or at least crosses none of the names; else the first one."""
-    apart = [box for box in boxes if not any(box.intersects(other) for other, _, _ in names)]
-    return next(filter(is_free, apart), next(iter(apart), boxes[0]))
+    seen, apart = [], []
+    for box in boxes:
+        seen.append(box)
+        if not any(box.intersects(other) for other, _, _ in names):
+            apart.append(box)
+            if is_free(box):
+                return box
+    return [*apart, *seen][0]
 
 
 def _vertex_names(
@@ -79,17 +86,21 @@ def _vertex_names(
             away = geometry.vertices[corner] - middle
             length = float(np.hypot(away[0], away[1]))
         angle = np.arctan2(away[1], away[0]) if np.isfinite(length) and length > 0.0 else np.pi / 2
-        width, height = metrics.horizontalAdvance(text) + 8, metrics.height()
-        reach = HANDLE_RADIUS * theme.text_px / 13 + 8 + width / 2
-        boxes = []
-        for turn in _TURNS:
-            box = QRectF(0, 0, width, height)
-            right, up = np.cos(angle + turn), np.sin(angle + turn)
-            box.moveCenter(position + QPointF(right * reach, -up * (reach + 2)))
-            is_seen = QRectF(placement.viewport).contains(position)
-            boxes.append(moved_inside(box, QRectF(placement.viewport)) if is_seen else box)
+        box = QRectF(0, 0, metrics.horizontalAdvance(text) + 8, metrics.height())
+        reach = HANDLE_RADIUS * theme.text_px / 13 + 8 + box.width() / 2
+        boxes = _around(position, box, float(angle), reach, QRectF(placement.viewport))
         names.append((_best(boxes, names, is_free), text, theme.vertex_text[geometry.color(place)]))
     return names
+
+
+def _around(position: QPointF, box: QRectF, angle: float, reach: float, viewport: QRectF) -> Iterator[QRectF]:
+    """Yield a box where it may stand around a vertex, the best place first: inside, if the vertex is."""
+    is_seen = viewport.contains(position)
+    for turn in _TURNS:
+        there = QRectF(box)
+        right, up = cos(angle + turn), sin(angle + turn)
+        there.moveCenter(position + QPointF(right * reach, -up * (reach + 2)))
+        yield moved_inside(there, viewport) if is_seen else there
 
 
 def _edge_names(
@@ -117,9 +128,9 @@ def _edge_names(
         if away.x() * right - away.y() * up > 0:
             away = -away
         reach = away * (RIM + abs(away.x()) * width / 2 + abs(away.y()) * height / 2)
-        places = [line.pointAt(part) + side for side in (reach, -reach) for part in _ALONG]
+        places = (line.pointAt(part) + side for side in (reach, -reach) for part in _ALONG)
         box = QRectF(0, 0, width, height)
-        boxes = [moved_inside(box.translated(place - box.center()), viewport) for place in places]
+        boxes = (moved_inside(box.translated(place - box.center()), viewport) for place in places)
         chosen = _best(boxes, [*vertices, *names], is_free)
         names.append((chosen, f"E{edge}{owner}", theme.vertex_text[edge]))
     return names

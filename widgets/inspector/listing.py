@@ -276,4 +276,6 @@ def best_first_row(lines: Sequence[range], marked: range, page: int, present: in
         whole = sum(line[0] in seen and line[-1] in seen for line in lines)
         return marked[0] in seen and marked[-1] in seen, min(whole, SEEN_LINES), -abs(first - present)
 
-    return max(range(max(lines[-1].stop - page, 0) + 1), key=worth)
+    rows = range(max(lines[-1].stop - page, 0) + 1)
+    showing = rows[max(marked[-1] - page + 1, 0) : marked[0] + 1]
+    return max(showing or rows, key=worth)

@@ -187,6 +187,8 @@ class StepTableView(QWidget):
         """Those that are to be seen whole."""
         self._wanted: tuple[int, Theme, tuple[int, int]] | None = None
         """A width, a theme and the size that is wanted with them."""
+        self._sizes: dict[tuple[Theme, int], list[tuple[int, int]]] = {}
+        """Sizes of the largest, by theme and size of the type."""
         # Without a layout of its own: a title of two lines is laid out here, and not in all that is around.
         self._pane = pane = QWidget(self)
         self._title = text_label("", pane, role="strong", wraps=True)
@@ -219,13 +221,14 @@ class StepTableView(QWidget):
     def make_room(self, tables: Sequence[StepTable]) -> None:
         """Write from now on so that these tables are seen whole, as far as type that can be read allows."""
         self._largest, self._wanted = tuple(tables), None
+        self._sizes.clear()
         self._fit()
 
     def wanted_size(self, width: int) -> tuple[int, int]:
         """Return the width of the largest tables in the usual type, and the height that they need in ``width``."""
         theme = current_theme()
         if self._wanted is None or self._wanted[:2] != (width, theme):
-            sizes = [_size_of(table, theme.text_px) for table in self._largest]
+            sizes = self._sizes_in(theme.text_px)
             widest, highest = (max((size[k] for size in sizes), default=0) for k in (0, 1))
             self._wanted = width, theme, (widest, highest + self._height_around(width))
         return self._wanted[2]
@@ -237,10 +240,16 @@ class StepTableView(QWidget):
         height = self.height() - self._height_around(width)
         least = min(usual, max(LIGHT.text_px, round(_LEAST_TYPE * usual)))
         for pixels in range(usual, least - 1, -1):
-            sizes = [_size_of(table, pixels) for table in self._largest]
-            if all(size[0] <= width and size[1] <= height for size in sizes):
+            if all(size[0] <= width and size[1] <= height for size in self._sizes_in(pixels)):
                 break
         self.cells.set_type(pixels)
+
+    def _sizes_in(self, pixels: int) -> list[tuple[int, int]]:
+        """Return the sizes of the largest tables in type of a size."""
+        key = current_theme(), pixels
+        if key not in self._sizes:
+            self._sizes[key] = [_size_of(table, pixels) for table in self._largest]
+        return self._sizes[key]
 
     def _note_height(self, width: int) -> int:
         lines = min(ceil(_WIDE * current_theme().text_px / max(width, 1)), 3)

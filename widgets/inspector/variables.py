@@ -113,6 +113,8 @@ class VariablesView(QTreeWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._variables: tuple[Variable, ...] = ()
+        self._owed: tuple[Variable, ...] | None = None
+        """What is shown once the pane is no longer folded away."""
         self._is_fraction = False
         self._kept_look: _Look | None = None
         self.setColumnCount(3)
@@ -162,11 +164,21 @@ class VariablesView(QTreeWidget):
     def show_variables(self, variables: Sequence[Variable]) -> None:
         """Show the variables of a step; open vectors and the selection stay while the names stay."""
         variables = tuple(variables)
+        if self.isHidden() and self.testAttribute(Qt.WidgetAttribute.WA_WState_ExplicitShowHide):
+            self._owed = variables
+            return
+        self._owed = None
         is_same_rows = [_shape(v) for v in variables] == [_shape(v) for v in self._variables]
         self._variables = variables
         if not is_same_rows:
             self._begin_anew()
         self._fill()
+
+    def setVisible(self, visible: bool) -> None:
+        """Show what has come while the pane was folded away."""
+        super().setVisible(visible)
+        if visible and self._owed is not None:
+            self.show_variables(self._owed)
 
     @Slot(bool)
     def show_fractions(self, is_fraction: bool) -> None:

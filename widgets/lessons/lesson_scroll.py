@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QSize, Qt, Signal, Slot
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QFrame, QScrollArea, QSizePolicy, QWidget
+from PySide6.QtWidgets import QFrame, QLayout, QScrollArea, QSizePolicy, QWidget
 
 
 class FloatingBar(QWidget):
@@ -40,6 +40,15 @@ class _Place(QWidget):
         return self._bar.heightForWidth(width)
 
 
+def _invalidate(layout: QLayout | None) -> None:
+    """Forget the sizes that a layout keeps, and those in it: Qt does so when it lays out, and so keeps old ones."""
+    if layout is not None:
+        for index in range(layout.count()):
+            item = layout.itemAt(index)
+            _invalidate(None if item is None else item.layout())
+        layout.invalidate()
+
+
 class LessonScroll(QScrollArea):
     """Holds the pane; the column gives it the height that it wants, as far as there is so much."""
 
@@ -62,6 +71,12 @@ class LessonScroll(QScrollArea):
         """Return the height that the content needs in a column of a width."""
         layout = self._content.layout()
         return 0 if layout is None else layout.totalHeightForWidth(width)
+
+    def measure_anew(self) -> None:
+        """Take what is shown now into account, before the layouts get to it one after the other."""
+        _invalidate(self._bar.layout())
+        self._bar.place.updateGeometry()
+        _invalidate(self._content.layout())
 
     def take_room(self, wanted: int, most: int) -> None:
         """Be as high as the content needs, see `height_for`, and at ``most`` so high: then it scrolls."""

@@ -128,7 +128,7 @@ class ChapterButton(QAbstractButton):
 
     def sizeHint(self) -> QSize:
         """Room for a title and a line of counts."""
-        height = QFontMetrics(self._title_font()).height() + QFontMetrics(self._small_font()).height()
+        height = sum(_line_heights(current_theme()))
         return QSize(self.wanted_width(self._spelling), max(height + _STRIP + 5, 24))
 
     def minimumSizeHint(self) -> QSize:
@@ -151,7 +151,7 @@ class ChapterButton(QAbstractButton):
         self._paint_ground(painter)
         self._paint_strip(painter)
         left, right, top = _SIDE, self.width() - _SIDE + 2, 2
-        title_height = QFontMetrics(self._title_font()).height()
+        title_height, line_height = _line_heights(theme)
         flags = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
         line = chapter.second_line(self._spelling)
         if not line:
@@ -162,7 +162,7 @@ class ChapterButton(QAbstractButton):
             painter.setFont(self._small_font())
             painter.setPen(QColor(theme.muted_text))
             painter.drawText(QRect(left, top, right - left, title_height), flags, chapter.key)
-            left += painter.fontMetrics().horizontalAdvance(chapter.key) + 4
+            left += _small_width(chapter.key, theme) + 4
         if is_whole and (self._spelling < Spelling.KEY or is_current or not chapter.key):
             painter.setFont(self._title_font(is_bold=is_current))
             is_dim = chapter.state is ChapterState.SKIPPED
@@ -171,7 +171,7 @@ class ChapterButton(QAbstractButton):
         if line:
             painter.setFont(self._small_font())
             painter.setPen(QColor(theme.muted_text))
-            box = QRect(_SIDE, top + title_height, right - _SIDE, painter.fontMetrics().height())
+            box = QRect(_SIDE, top + title_height, right - _SIDE, line_height)
             painter.drawText(box, flags, line)
 
     def _strip(self) -> QRect:
@@ -222,17 +222,30 @@ class ChapterButton(QAbstractButton):
         return text_font(current_theme(), current_theme().small_px)
 
 
-@lru_cache(maxsize=256)
 def _wanted_width(chapter: Chapter, spelling: Spelling, theme: Theme) -> int:
-    small = QFontMetrics(text_font(theme, theme.small_px))
     # The title may become bold, and a stage may become needed, while nothing should move.
-    name = QFontMetrics(_title_font(theme, is_bold=True)).horizontalAdvance(chapter.title)
-    key = small.horizontalAdvance(chapter.key)
+    name, key = _title_width(chapter.title, theme), _small_width(chapter.key, theme)
     if spelling is Spelling.KEY and chapter.key and chapter.state is not ChapterState.CURRENT:
         return key + 2 * _SIDE
     title = name + (key + 4 if chapter.key else 0)
-    line = small.horizontalAdvance(chapter.second_line(spelling))
-    return max(title, line) + 2 * _SIDE
+    return max(title, _small_width(chapter.second_line(spelling), theme)) + 2 * _SIDE
+
+
+@lru_cache(maxsize=64)
+def _title_width(text: str, theme: Theme) -> int:
+    return QFontMetrics(_title_font(theme, is_bold=True)).horizontalAdvance(text)
+
+
+@lru_cache(maxsize=256)
+def _small_width(text: str, theme: Theme) -> int:
+    return QFontMetrics(text_font(theme, theme.small_px)).horizontalAdvance(text)
+
+
+@lru_cache(maxsize=8)
+def _line_heights(theme: Theme) -> tuple[int, int]:
+    """Return the heights of the title and of the line of counts."""
+    fonts = _title_font(theme), text_font(theme, theme.small_px)
+    return QFontMetrics(fonts[0]).height(), QFontMetrics(fonts[1]).height()
 
 
 def _title_font(theme: Theme, *, is_bold: bool = False) -> QFont:

@@ -18,6 +18,7 @@ from app.session.moment import Change, Cursor, Moment, Step, cursor_at
 from app.session.session import Session
 from app.session.tracing import trace_now
 from core import Settings, Trace
+from core.explain.step_tables import largest_tables
 from core.records.steps import Level
 from core.trace.incremental.draft import Draft
 from core.trace.run_to import START
@@ -313,7 +314,7 @@ def opened(state: State, asked: LessonQuestion | None, known: tuple[OpenState, .
         raster = TeachingRaster(*state.scene.size)
         document = Document(state.scene, raster, mine, state.triangle, title=state.title, edits=state.edits)
         run = trace_now(document, state.stage)
-    run.stage(state.stage)
+    largest_tables(run.stage(state.stage))  # What the window gives room to.
     cursor = cursor_at(state.place, run, Level.PIXEL)
     second = None if other is None else _second(document, cursor.stage, other)
     return OpenState(state, document, run, cursor, second, asked)

@@ -280,7 +280,7 @@ class SideColumn(QWidget):
         super().__init__(parent)
         self._inspector = inspector
         self._lesson: LessonScroll | None = None
-        self._gives_way = self._is_idle = self._is_presenting = self._is_owed = False
+        self._gives_way = self._is_idle = self._is_presenting = self._is_owed = self._is_put_off = False
         self._layout = column_layout(self, 4)
         self._below = QWidget(self)
         column_layout(self._below).addWidget(inspector)
@@ -308,6 +308,14 @@ class SideColumn(QWidget):
             # When all is known that the lesson shows, and before it is painted.
             self._is_owed = True
             QCoreApplication.postEvent(self, QEvent(QEvent.Type.LayoutRequest))
+
+    def put_off(self, is_put_off: bool) -> None:
+        """Divide the height no more until all is known that is shown, then once."""
+        self._is_put_off = is_put_off
+        if not is_put_off:
+            if self._lesson is not None:
+                self._lesson.measure_anew()
+            self._divide()
 
     def set_idle(self, is_idle: bool) -> None:
         """Leave the inspector out of a lesson: no step has been done that it could show."""
@@ -338,6 +346,8 @@ class SideColumn(QWidget):
     @Slot()
     def _divide(self) -> None:
         """Give the lesson the height that it wants, unless the inspector would have too little."""
+        if self._is_put_off:
+            return
         self._is_owed = False
         if self._lesson is None:
             self._below.show()
@@ -354,11 +364,11 @@ class SideColumn(QWidget):
         is_wanted = not (self._inspector.isHidden() or self._is_idle)
         is_inspected = is_wanted and (has_room or not gives_way)
         self._inspector.show_part_alone(is_alone and has_room)
-        self._below.setVisible(is_inspected)
         most = self.height()
         if is_inspected and not has_room:
             most = max(most - least, round(LESSON_PART * most))
         self._lesson.take_room(wanted, most)
+        self._below.setVisible(is_inspected)  # At once in its place.
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Divide another height."""

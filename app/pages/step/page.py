@@ -185,10 +185,12 @@ class StepPage(Page):
     def laid_out_once(self) -> Iterator[None]:
         """Lay out what is shown meanwhile at the end."""
         self._settles = False
+        self.side.put_off(True)
         try:
             yield
         finally:
             self._settles = True
+            self.side.put_off(False)
             self.settle_layouts()
 
     # Panes.
