@@ -83,9 +83,20 @@ def table_text(samples: list[Sample], size: tuple[int, int]) -> str:
         names = [name for name in by_stage if name[0] == action]
         rows += [_row(name, by_stage[name]) for name in names if len(names) > 1]
         rows.append(_row((action, EVERY_STAGE), every[action, EVERY_STAGE]))
-    return "\n".join(
-        [f"{size[0]}x{size[1]}, {', '.join(dict.fromkeys(s.scene for s in samples))}", *aligned(rows)]
-    )
+    title = f"{size[0]}x{size[1]}, {', '.join(dict.fromkeys(s.scene for s in samples))}"
+    return "\n".join([title, *aligned(rows), *_lesson_line(samples)])
+
+
+def _lesson_line(samples: Iterable[Sample]) -> list[str]:
+    """Return how much the next step of a lesson costs, counted in the fixed work that was timed beside it."""
+    answers = [sample.answer for sample in samples if sample.action == "lesson"]
+    if not answers:
+        return []
+    times = [answer.processor / answer.fixed for answer in answers]
+    median, high = np.percentile(times, [50, 95]).tolist()
+    return [
+        f"next step of a lesson: {median:.1f} times the fixed work, {high:.1f} times at the 95th percentile"
+    ]
 
 
 def _row(name: tuple[str, ...], figures: Figures) -> tuple[str, ...]:

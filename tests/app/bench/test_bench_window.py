@@ -34,6 +34,12 @@ def test_the_table_has_every_action_in_every_stage_and_in_all() -> None:
     ]
 
 
+def test_lessons_are_counted_in_fixed_work() -> None:
+    text = table_text([sample(milliseconds, "lesson") for milliseconds in (6, 12, 60)], (1280, 800))
+    # Half of each is the thread's own work, beside 3 ms of fixed work.
+    assert text.endswith("next step of a lesson: 2.0 times the fixed work, 9.2 times at the 95th percentile")
+
+
 def test_the_file_has_a_row_for_every_scene_action_stage_and_level() -> None:
     text = csv_text({(1280, 800): [sample(10), sample(30), sample(5, "hover")]}, this_machine(), "xcb")
     rows = list(csv.DictReader(text.splitlines()))
