@@ -114,6 +114,9 @@ NOT_FOR: Mapping[str, Mapping[str, str]] = {
         "depth_test_time": "A shader may discard a fragment, so depth is tested after it has run.",
     },
     "no shadow": {"shadow": "No light of this scene casts shadows: only a directional light can."},
+    "no curves": dict.fromkeys(
+        ("tessellation", "segments", "curve_tolerance"), "This scene has no curves and no patches of curves."
+    ),
     "no lights": {
         "shading": "Typed triangles have no lights: they are unlit.",
         "object_culling": "This scene has no meshes: only those have boxes in world space.",
@@ -134,9 +137,17 @@ def facts(scene: AnyScene | None) -> list[str]:
         "no texture": all(texture is None for texture in textures),
         "own shaders": scene.program is not None,
         "no shadow": isinstance(scene, ClipScene) or scene.casting_light < 0,
+        "no curves": not has_curves(scene),
         "no lights": isinstance(scene, ClipScene),
     }
     return [fact for fact, is_so in holds.items() if is_so]
+
+
+def has_curves(scene: AnyScene) -> bool:
+    """Return whether a scene is made of curves or patches, which are cut into segments or triangles."""
+    if isinstance(scene, ClipScene):
+        return scene.curves is not None
+    return any(mesh.patches is not None for mesh in scene.meshes)
 
 
 def casts_rays(visibility: str) -> bool:

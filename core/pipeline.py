@@ -43,6 +43,7 @@ from core.records.frame import Frame, Samples, StageCount
 from core.resolved import resolve
 from core.scene import AnyScene, ClipScene, Texture
 from core.settings import DEFAULTS, Settings
+from core.stages.before_matrices import before_matrices
 from core.stages.bin_and_raster import Counts, fragments_of
 from core.stages.declared import STAGES
 from core.stages.fragments import (
@@ -133,6 +134,8 @@ def draw(
 ) -> Frame:
     """Draw the ``chosen`` (T,) triangles, or all; the buffers are those of the raster's region."""
     resolved = resolve(settings).imported
+    if scene.makes_positions:
+        scene = before_matrices(scene, settings)
     sampling, settings = resolved.sampling, resolved.settings
     if sampling.is_area:
         return draw_areas(scene, settings, raster, chosen)

@@ -9,6 +9,7 @@ import numpy as np
 
 from core.records.arrays import Floats, Integers, Singles, cached_property, checked, checked_size, read_only
 from core.records.clip_region import checked_polygon_region, checked_region
+from core.records.curves import Curves, checked_patches
 from core.records.depth_table import DepthTable
 from core.records.primitives import checked_rings
 from core.shaders.record import ShaderProgram
@@ -81,6 +82,12 @@ class Mesh:
     texture: Texture | None = None
     faces: Integers | None = None
     """(T,) int64, the polygon of the file that each triangle came from; ``None``: its own number."""
+    patches: Floats | None = None
+    """(P, 4, 4, 3) float64, object space, control points of bicubic Bezier patches.
+
+    The triangles are made anew of them as the settings say (`core.tessellation`). Seen from the front, the first index
+    runs to the right, the second up.
+    """
     transform: Floats = field(default_factory=lambda: np.eye(4))
     """(4, 4) float64, M: object to world."""
     material: Material = field(default_factory=Material)
@@ -113,6 +120,9 @@ class Mesh:
             if len(faces) != len(triangles):
                 raise ValueError(f"faces must be ({len(triangles)},), got {faces.shape}")
             object.__setattr__(self, "faces", faces)
+        if self.patches is not None:
+            patches = checked_patches(self.name, self.patches, COORDINATE_LIMIT)
+            object.__setattr__(self, "patches", patches)
 
     @property
     def is_affine(self) -> bool:
@@ -232,6 +242,9 @@ class Scene:
     corner_count: ClassVar[int] = 3
     """How many corners a primitive has."""
 
+    makes_positions: bool = field(init=False)
+    """Whether positions are made before the matrices are applied, see `core.stages.before_matrices`."""
+
     def __post_init__(self) -> None:
         if isinstance(self.meshes, Mesh):
             raise ValueError("meshes must be a sequence of meshes, got one mesh")
@@ -239,6 +252,7 @@ class Scene:
         object.__setattr__(self, "lights", tuple(self.lights))
         if not self.meshes:
             raise ValueError("a scene needs at least one mesh")
+        object.__setattr__(self, "makes_positions", any(mesh.patches is not None for mesh in self.meshes))
         object.__setattr__(self, "size", checked_size("size", self.size, SIZE_LIMIT))
         object.__setattr__(self, "background", checked("background", self.background, (4,)))
 
@@ -298,8 +312,13 @@ class ClipScene:
     """(R,) int64, the same of ``clip_region``."""
     table: DepthTable | None = None
     """What fragments are made from (`core.depth.whole_depths.table_scene`); ``None`` of all other kinds."""
+    curves: Curves | None = None
+    """Curves of which the segments are made anew as the settings say (`core.tessellation`); ``None``: none."""
     corner_count: int = field(init=False)
     """How many corners a primitive has."""
+
+    makes_positions: bool = field(init=False)
+    """Whether segments are made of curves before anything else, see `core.stages.before_matrices`."""
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
@@ -330,6 +349,9 @@ class ClipScene:
             object.__setattr__(self, "shared", shared)
         object.__setattr__(self, "size", checked_size("size", self.size, SIZE_LIMIT))
         object.__setattr__(self, "background", checked("background", self.background, (4,)))
+        object.__setattr__(self, "makes_positions", self.curves is not None)
+        if self.curves is not None and self.kind != "segments":
+            raise ValueError(f"only segments are made of curves, got {self.kind}")
         if self.kind == "polygons":
             self._check_polygons()
         elif self.rings is not None or self.region_rings is not None:

@@ -16,6 +16,9 @@ class Settings:
     Raises ValueError if a value is not in the table; the message lists those that are.
     """
 
+    tessellation: str = choice(
+        "uniform", "Tessellation", "transform", "core.tessellation.segments", asks=("listing",)
+    )
     cull: str = choice(
         "none",
         "Cull",
@@ -233,6 +236,26 @@ class Settings:
         otherwise="Only pictures that are presented on a screen are flushed.",
         is_look=True,
     )
+    segments: int = number_field(
+        6,
+        "Segments",
+        100_000,
+        (1, 2, 3, 4, 6, 8, 12, 16, 32),
+        "{0} segments",
+        taken_by="tessellation",
+        otherwise="Only equal steps have a number.",
+    )
+    """Straight pieces of a curve, and of each side of a patch (tessellation), 1 to 100,000."""
+    curve_tolerance: int = number_field(
+        8,
+        "Tolerance of curves",
+        4096,
+        (1, 2, 4, 8, 16, 32, 64),
+        "{0}/16 px",
+        taken_by="tessellation",
+        otherwise="Equal steps have a number, and no tolerance.",
+    )
+    """Sixteenths of a pixel that a curve may be away from its pieces (tessellation), 1 to 4,096."""
     leaf_size: int = number_field(
         8,
         "Leaf size",

@@ -7,6 +7,7 @@ from math import radians
 
 import numpy as np
 
+from core.families import has_curves
 from core.records.arrays import Floats
 from core.records.clip_region import region_in_window, region_of_window
 from core.scene import AnyScene, Camera, ClipScene, Mesh, Scene
@@ -53,6 +54,7 @@ def move_corner(
         If the corner is not in front of the eye: such a corner has no window position. If a vertex shader places it.
     """
     x, y = position
+    check_not_made(scene)
     if isinstance(scene, ClipScene):
         window = window_of_clip(scene.clip[triangle, corner], size)
         window[:2] = x, y
@@ -78,8 +80,15 @@ def move_corner(
     return _with_mesh(scene, mesh_index, replace(scene.meshes[mesh_index], positions=positions))
 
 
+def check_not_made(scene: AnyScene) -> None:
+    """Refuse to move a vertex that is a point of a curve or patch: ValueError."""
+    if has_curves(scene):
+        raise ValueError("this vertex is a point of a curve or patch, which its control points make")
+
+
 def set_clip_corner(scene: ClipScene, triangle: int, corner: int, clip: Floats) -> ClipScene:
     """Put a corner, and those that share its place, at a clip position (4,)."""
+    check_not_made(scene)
     corners = scene.clip.copy()
     if scene.shared is None:
         corners[triangle, corner] = clip
@@ -111,11 +120,17 @@ def set_value(scene: AnyScene, path: str, value: float, size: tuple[int, int]) -
         return _set_clip_window(scene, {path: value}, size)
     if isinstance(scene, ClipScene):
         triangle, corner, name = int(names[0]), int(names[1]), names[2]
-        window = window_of_clip(scene.clip[triangle, corner], size)
+        held = scene.clip if scene.curves is None else scene.curves.control
+        window = window_of_clip(held[triangle, corner], size)
         window[WINDOW_NAMES.index(name)] = value
         if window[3] == 0 or not np.isfinite(window).all():
             raise ValueError("w must not be 0: such a corner has no place in the window")
-        return set_clip_corner(scene, triangle, corner, clip_of_window(window, size))
+        moved = clip_of_window(window, size)
+        if scene.curves is not None:
+            control = scene.curves.control.copy()
+            control[triangle, corner] = moved
+            return replace(scene, curves=replace(scene.curves, control=control))
+        return set_clip_corner(scene, triangle, corner, moved)
     if kind == "camera":
         return replace(scene, camera=_set_camera(scene.camera, names, value))
     if kind == "light":
@@ -190,7 +205,8 @@ def _with_mesh(scene: Scene, index: int, mesh: Mesh) -> Scene:
 def scene_digest(scene: AnyScene) -> str:
     """Return a text that two scenes have in common which show the same shapes, whatever their rasters and colours."""
     if isinstance(scene, ClipScene):
-        parts = [scene.kind, scene.clip, scene.rings, scene.clip_region]
+        shapes = scene.clip if scene.curves is None else scene.curves.control
+        parts = [scene.kind, shapes, scene.rings, scene.clip_region]
         if scene.table is not None:
             # A table's fragments have a place; their depths are in the table.
             parts += [scene.table.depths, scene.table.test]

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 
 from core.scene import AnyScene, Camera, ClipScene, Mesh, Scene
 from core.transform.assembly import assemble
+from lessons.curve_scenes import arch, cracked, curve_in_depth, hill
 from lessons.run_place import FIRST_STEP, RunPlace
 from lessons.shapes import FACE_COLORS, cube, knot, linear_color, sphere, teapot, torus
 from lessons.window_scenes import (
@@ -394,9 +395,38 @@ CATALOGUE = (
         {"visibility": "ray-casting-tree", "leaf_size": "12"},
     ),
     BuiltInScene(
+        "curve",
+        "Bézier curve",
+        "Six straight pieces of one curve: each of their ends is a mixture of four control points, level by level.",
+        arch,
+        RunPlace("transform", 'kind == "mix" and step == 3'),
+    ),
+    BuiltInScene(
+        "curve-in-depth",
+        "Bézier curve in perspective",
+        "One end is four times as far as the other: the curve is cut before w divides, so the pieces crowd together.",
+        curve_in_depth,
+        RunPlace("transform", 'kind == "emit" and step == 3'),
+    ),
+    BuiltInScene(
+        "hill",
+        "Hill of one patch",
+        "Sixteen control points, 72 triangles: the normals come from both derivatives of the surface.",
+        hill,
+        RunPlace("transform", 'kind == "normal"'),
+    ),
+    BuiltInScene(
+        "cracked-patches",
+        "Crack between patches",
+        "Two patches have one curved edge in common, with two pieces on one side and three on the other: a crack.",
+        cracked,
+        RunPlace("transform", 'kind == "cut-bound"'),
+        {"tessellation": "bound", "curve_tolerance": "160", "shading": "unlit"},
+    ),
+    BuiltInScene(
         "teapot",
         "Teapot",
-        "The Utah teapot, 32 Bezier patches cut into 2,256 triangles.",
+        "The Utah teapot, 32 Bézier patches cut into 2,256 triangles.",
         of_mesh(teapot, 3.5, "#E8E8E8"),
         RunPlace("raster", "covered"),
     ),

@@ -10,6 +10,7 @@ import numpy as np
 from core.framebuffer.display import linear_light
 from core.records.arrays import Floats, Integers
 from core.scene import Mesh, Texture
+from core.tessellation.patches import mesh_of_patches
 
 # Meshes by formula: cube, sphere, torus, knot, floor; counter-clockwise outside, with normals and UVs.
 
@@ -262,42 +263,13 @@ def _turned(curve: Floats, quarter: int) -> Floats:
     return np.concatenate([radius * arc, height], axis=2)
 
 
-def teapot(cells: int = 6, height: float = 1.3) -> Mesh:
-    """Return the teapot around the origin, y up: ``cells`` x ``cells`` cells of two triangles for each of 32 patches.
+def teapot(segments: int = 6, height: float = 1.3) -> Mesh:
+    """Return the teapot around the origin, y up: 32 patches, each cut into ``segments`` x ``segments`` cells at first.
 
     The first row of the knob and the last one of the bottom are single points: their cells keep one triangle, and
     their normals point along the axis. Patches do not share vertices, but those on a common border are equal.
     """
     control = patches()
-    t = np.linspace(0, 1, cells + 1)
-    weights = np.stack([(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t**2 * (1 - t), t**3], axis=1)
-    slopes = np.stack([-((1 - t) ** 2), (1 - t) * (1 - 3 * t), t * (2 - 3 * t), t**2], axis=1)
-
-    def evaluate(down: Floats, across: Floats) -> Floats:
-        return np.asarray(np.einsum("ia,pabk,jb->pijk", down, control, across))
-
-    places = evaluate(weights, weights)
-    normals = np.cross(evaluate(slopes, weights), evaluate(weights, slopes))
-    lengths = np.linalg.norm(normals, axis=3, keepdims=True)
-    axis = np.where(places[..., 2:] > 1, 1.0, -1.0) * (0.0, 0.0, 1.0)
-    normals = np.where(lengths > 1e-9, normals / np.maximum(lengths, 1e-9), axis)
-
-    cell_triangles, _ = grid_triangles(cells, cells)
-    first = np.arange(len(control)) * (cells + 1) ** 2
-    triangles = (first[:, None, None] + cell_triangles[:, [0, 2, 1]]).reshape(-1, 3)
-    corners = places.reshape(-1, 3)[triangles]
-    has_area = (
-        np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) > 1e-9
-    )
-    grid = np.stack(np.meshgrid(t, t), axis=-1)
-    scale = height / places[..., 2].max()
-    return Mesh(
-        positions=scale
-        * (places - (0, 0, places[..., 2].max() / 2)).reshape(-1, 3)[:, [0, 2, 1]]
-        * (1, 1, -1),
-        triangles=triangles[has_area],
-        normals=normals.reshape(-1, 3)[:, [0, 2, 1]] * (1, 1, -1),
-        uvs=np.tile(grid.reshape(-1, 2), (len(control), 1)),
-        faces=np.repeat(np.arange(len(control)), 2 * cells**2)[has_area],
-        name="teapot",
-    )
+    top = control[..., 2].max()
+    control = (height / top) * (control - (0, 0, top / 2))[..., [0, 2, 1]] * (1, 1, -1)
+    return mesh_of_patches(control, segments, name="teapot")

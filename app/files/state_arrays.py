@@ -23,15 +23,28 @@ from numpy.typing import NDArray
 from app.files.file_access import make_folder, read_input, write_file
 from app.files.state_models import ArrayRecord
 from app.session.memory import Need, check_free
-from core.scene import Mesh, Scene
+from core.records.curves import Curves
+from core.scene import ClipScene, Mesh, Scene
 from lessons.os_errors import os_error_reason
 from lessons.scenes import make_scene, scene_names
 
 # Where the arrays of a mesh come from: fingerprints tell whether a file or built-in scene still has them.
 
 
-ARRAYS = ("positions", "triangles", "normals", "uvs", "colors", "faces", "texture")
+ARRAYS = ("positions", "triangles", "normals", "uvs", "colors", "faces", "texture", "patches")
 """Arrays of a mesh; the texture's are its pixels."""
+
+EARLIER = frozenset(
+    {
+        "ddf2ae320e28e376a0cbe09cda708c66",
+        "6ee7ae35a713af91e93f19957f17d66e",
+        "f854a0f80c8b6a0df092db10e4277c6b",
+    }
+)
+"""Fingerprints of arrays that a built-in scene had in earlier versions, the same up to the last bits of rounding.
+
+The teapot's positions, normals and texture coordinates before its patches were cut by de Casteljau's scheme.
+"""
 
 Fingerprints = tuple[dict[str, str], ...]
 """For every mesh, fingerprint by name of the array; a missing array has none."""
@@ -60,6 +73,38 @@ def array_of(mesh: Mesh, name: str) -> NDArray[Any] | None:
         return None if mesh.texture is None else mesh.texture.pixels
     value: NDArray[Any] | None = getattr(mesh, name)
     return value
+
+
+CLIP_ARRAYS = (
+    "clip",
+    "attributes",
+    "shared",
+    "clip_region",
+    "rings",
+    "region_rings",
+    "texture",
+    "curves",
+    "curve_colors",
+)
+"""Arrays of a scene in clip space; the last two are its `core.records.curves.Curves`."""
+
+
+def clip_arrays(scene: ClipScene) -> dict[str, Any]:
+    """Return the records of the arrays of a scene in clip space, by their names in `CLIP_ARRAYS`; ``None``: none."""
+    curves, texture = scene.curves, scene.texture
+    arrays: dict[str, NDArray[Any] | None] = {name: getattr(scene, name) for name in CLIP_ARRAYS[:6]}
+    arrays["texture"] = None if texture is None else texture.pixels
+    if curves is not None:
+        arrays |= {"curves": curves.control, "curve_colors": curves.colors}
+    return {name: None if array is None else array_record(array) for name, array in arrays.items()}
+
+
+def curves_of(arrays: dict[str, Any]) -> Curves | None:
+    """Take the arrays of curves out of those of a scene; ValueError where one is missing or does not fit."""
+    control, colors = arrays.pop("curves"), arrays.pop("curve_colors")
+    if (control is None) != (colors is None):
+        raise ValueError("curves need curve_colors, and these need curves")
+    return None if control is None else Curves(control, colors)
 
 
 def fingerprint(array: NDArray[Any]) -> str:

@@ -160,6 +160,9 @@ class ClipSceneRecord(Record):
     clip_region: ArrayRecord | None = None
     rings: ArrayRecord | None = None
     region_rings: ArrayRecord | None = None
+    curves: ArrayRecord | None = None
+    """Control points of ``core.records.curves.Curves``; ``curve_colors`` are theirs."""
+    curve_colors: ArrayRecord | None = None
     texture: ArrayRecord | None
     texture_name: str = "texture"
     size: Size

@@ -27,6 +27,8 @@ from app.files.mesh_files import MeshFileError, OutsideMeshError, load_meshes
 from app.files.mesh_formats import Report
 from app.files.state_arrays import (
     ARRAYS,
+    CLIP_ARRAYS,
+    EARLIER,
     Fingerprints,
     array_folder,
     array_from,
@@ -35,6 +37,8 @@ from app.files.state_arrays import (
     array_record,
     built_in_fingerprints,
     check_unfolded,
+    clip_arrays,
+    curves_of,
     fingerprint,
     fingerprints_of,
     may_name_outside,
@@ -123,7 +127,6 @@ def _key() -> bytes:
     return b""
 
 
-CLIP_ARRAYS = ("clip", "attributes", "shared", "clip_region", "rings", "region_rings", "texture")
 Keep = Callable[[NDArray[Any]], ArrayRecord]
 """Returns the record of an array of a mesh, and keeps its bytes elsewhere if it is to be."""
 
@@ -259,18 +262,10 @@ def _table_record(table: DepthTable) -> TableSceneRecord:
 
 
 def _clip_record(scene: ClipScene) -> ClipSceneRecord:
-    assert scene.attributes is not None
     return ClipSceneRecord(
         kind="clip",
         primitives=scene.kind,  # type: ignore[arg-type]
-        clip=array_record(scene.clip),
-        attributes=array_record(scene.attributes),
-        shared=None if scene.shared is None else array_record(scene.shared),
-        **{
-            name: None if getattr(scene, name) is None else array_record(getattr(scene, name))
-            for name in ("clip_region", "rings", "region_rings")
-        },
-        texture=None if scene.texture is None else array_record(scene.texture.pixels),
+        **clip_arrays(scene),
         texture_name=shown_name(scene.texture.name) if scene.texture is not None else "texture",
         size=scene.size,
         background=_numbers(scene.background),
@@ -341,7 +336,12 @@ def _clip_scene(record: ClipSceneRecord) -> ClipScene:
         texture = None if pixels is None else Texture(pixels, record.texture_name)
         background = np.array(record.background)
         return ClipScene(
-            kind=record.primitives, size=record.size, texture=texture, background=background, **arrays
+            kind=record.primitives,
+            size=record.size,
+            texture=texture,
+            background=background,
+            curves=curves_of(arrays),
+            **arrays,
         )
 
 
@@ -415,7 +415,8 @@ def _mesh(
         theirs = None
         if record.source_mesh is not None and record.source_mesh < len(sources):
             theirs = array_of(sources[record.source_mesh], name)
-        if theirs is None or fingerprint(theirs) != expected:
+        is_known = source is not None and source.built_in is not None and expected in EARLIER
+        if theirs is None or not (fingerprint(theirs) == expected or is_known):
             place = "its source" if source is None else source.built_in or source.file
             raise StateFileError(
                 f"{place} has changed since the state was saved: the {name} of mesh {index} are not the same"

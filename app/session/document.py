@@ -10,8 +10,9 @@ import numpy as np
 from app.session.memory import check_free
 from core import STAGES, Settings, Trace, trace
 from core.coverage.pixel_runs import fill_traits
-from core.records.arrays import Floats
+from core.records.arrays import Floats, cached_property
 from core.scene import AnyScene, ClipScene
+from core.stages.before_matrices import before_matrices
 from core.trace import TraceSource, scene_triangle_count
 from core.trace.source import LONGEST_RUN, most_tests
 
@@ -106,10 +107,12 @@ class Document:
 
     @property
     def triangle_count(self) -> int:
-        """T."""
-        return scene_triangle_count(self.scene)
+        """T, of the curves or patches as they are cut."""
+        if not self.scene.makes_positions:
+            return scene_triangle_count(self.scene)
+        return scene_triangle_count(before_matrices(self.traced_scene, self.settings))
 
-    @property
+    @cached_property
     def traced_scene(self) -> AnyScene:
         """The scene at the size that is traced."""
         has_table = isinstance(self.scene, ClipScene) and self.scene.table is not None

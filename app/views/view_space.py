@@ -24,7 +24,7 @@ from core.trace import scene_triangle_count
 from core.transform.matrices import projection, transform, world_to_camera
 from core.transform.traced import SPACES, is_dropped, spaces_reached, triangles_done
 from core.transform.vertex_stage import VertexStage, vertex_normals
-from lessons.scene_edits import set_clip_corner
+from lessons.scene_edits import check_not_made, set_clip_corner
 from widgets.space.orbit import Orbit
 
 # The space that the 3D view shows: the world of a scene, or the view volume of triangles in clip space.
@@ -233,6 +233,7 @@ def move_corner_to(space: ViewSpace, triangle: int, corner: int, place: Floats) 
             )
         ndc = np.linalg.solve(space.from_clip, np.append(place, 1.0))
         return set_clip_corner(scene, triangle, corner, ndc / ndc[3] * w)
+    check_not_made(scene)
     vertex = int(space.vertices.corners[triangle, corner])
     index, local = 0, vertex
     while local >= len(scene.meshes[index].positions):

@@ -153,7 +153,18 @@ shows("resolve", PIXEL)
 
 
 TOPICS = (
-    *("transform", "trees", "culling", "clipping", "coverage", "spans", "lines", "interpolation", "textures"),
+    *(
+        "transform",
+        "tessellation",
+        "trees",
+        "culling",
+        "clipping",
+        "coverage",
+        "spans",
+        "lines",
+        "interpolation",
+        "textures",
+    ),
     *("shading", "shaders", "depth", "visibility", "framebuffer", "antialiasing"),
 )
 """Folders whose ``told`` files say what steps do; the variables of a stage stand in this order."""

@@ -21,6 +21,7 @@ from core.records.frame import StageCount
 from core.resolved import resolve
 from core.scene import AnyScene
 from core.settings import DEFAULTS, Settings
+from core.stages.before_matrices import before_matrices
 from core.stages.declared import STAGES
 from core.stages.vertices import process_geometry
 
@@ -85,6 +86,8 @@ def draw_picture(
     than snapping moves it and has corners much alike, ``corners`` stay between these, where `render` extrapolates.
     """
     settings = settings or DEFAULTS
+    if scene.makes_positions:
+        scene = before_matrices(scene, settings)
     if scene.corner_count != 3:
         settings = suited(settings, scene)
     raster = make_raster(scene.size, settings.pixel_center, region)

@@ -40,6 +40,7 @@ from core.records.primitives import (
 from core.resolved import resolve
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings, families, no_effect
+from core.stages.before_matrices import before_matrices
 from core.stages.declared import GEOMETRY_STAGES
 from core.stages.fragment_color import vertex_stage
 from core.stages.geometry import Geometry, all_projected, clipping_distances, line_reach
@@ -92,6 +93,8 @@ def process_geometry(
     """
     if scene.program is not None or not resolve(settings).draws_any_scene:
         check_edits(scene, settings)
+    if scene.makes_positions:
+        scene = before_matrices(scene, settings)
     if scene.corner_count != 3:
         settings = suited(settings, scene)
     settings = resolve(settings).settings
@@ -246,9 +249,7 @@ def corner_values(
     elif vertices.shaded is not None:
         find_values = partial(_shaded_values, vertices, resolve(settings).interpolation[1])
     else:
-        from core.stages.vertex_light import (
-            light_vertices,  # Triangles given in clip space come without light.
-        )
+        from core.stages.vertex_light import light_vertices  # Clip space comes without light.
 
         find_values = partial(light_vertices, scene, vertices, settings)
     with count:

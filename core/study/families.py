@@ -18,6 +18,7 @@ from core.settings import families
 from core.shading.measured_shadows import SHADOW
 from core.study.family import StudyFamily
 from core.study.whole_picture import PIPELINE, standing_in
+from core.tessellation.measured import TESSELLATION
 from core.trees.measured import HIERARCHY
 from core.visibility.measured_loops import LOOPS
 
@@ -44,6 +45,7 @@ OWN = (
     HIERARCHY,
     PRESENTATION,
     FLUSHING,
+    TESSELLATION,
 )
 """Studies with work and references of their own; those whose family is not in the table yet are not shown."""
 

@@ -19,6 +19,7 @@ from core.records.frame import Frame, StageCount
 from core.resolved import resolve
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings, no_effect
+from core.stages.before_matrices import before_matrices
 from core.stages.bin_and_raster import schedule
 from core.stages.declared import STAGES
 from core.stages.fragment_color import Surface, vertex_stage
@@ -70,6 +71,8 @@ class TraceSource:
 
     def __post_init__(self) -> None:
         check_edits(self.scene, self.settings)
+        if self.scene.makes_positions:
+            object.__setattr__(self, "scene", before_matrices(self.scene, self.settings))
         if self.scene.corner_count != 3:
             object.__setattr__(self, "settings", suited(self.settings, self.scene))
 

@@ -1,5 +1,8 @@
 """Trace of the vertex stage: every vertex from space to space; and which geometry there is after a step."""
 
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
 import numpy as np
 
 from core.culling.culling import KEPT
@@ -10,7 +13,7 @@ from core.stages.declared import STAGES
 from core.stages.fragment_color import has_program
 from core.trace import Trace
 from core.trace.source import TraceSource
-from core.trace.stage_trace import StageTrace, no_pixels
+from core.trace.stage_trace import InsertedRows, StageTrace, insert_rows, no_pixels
 from core.transform.matrices import transform_component
 
 # Which geometry there is after a step: the spaces that corners have reached, and the triangles that are
@@ -20,6 +23,8 @@ from core.transform.matrices import transform_component
 SPACES = ("object", "world", "camera", "clip", "NDC", "window")
 """Spaces of a corner, in the order in which it goes through them."""
 CLIP, WINDOW = SPACES.index("clip"), SPACES.index("window")
+WAY_COUNT = len(SPACES) - 1
+"""Kinds of rows from one space to the next: the first ones of a trace."""
 
 
 def spaces_reached(trace: Trace, stage: str, position: int) -> Integers:
@@ -36,6 +41,8 @@ def spaces_reached(trace: Trace, stage: str, position: int) -> Integers:
         return _behind_shader(traced, done, shape)
     first = 0 if trace.source.geometry.vertices.object is not None else CLIP
     rows = WINDOW - first
+    # What is done in front of the matrices leaves a corner where it is.
+    done = int(np.count_nonzero(traced.steps.kind[:done] < WAY_COUNT))
     reached: Integers = first + np.clip(done - rows * np.arange(shape[0] * shape[1]), 0, rows)
     return reached.reshape(shape)
 
@@ -89,12 +96,39 @@ def divide_and_map(clip: np.ndarray, width: int, height: int) -> tuple[float, fl
 
 
 def trace_transform(source: TraceSource) -> StageTrace:
-    """Return the rows of every vertex: the statements of the scene's vertex shader, or one row for every space."""
+    """Return the rows of every vertex: the statements of the scene's vertex shader, or one row for every space.
+
+    What makes positions before the matrices has its rows in front of those of the corner.
+    """
     if has_program(source.scene):
         from core.shaders.traced_stages import trace_vertex_shader
 
         return trace_vertex_shader(source)
-    return trace_spaces(source)
+    found = trace_spaces(source)
+    if source.scene.makes_positions:
+        from core.tessellation.traced import tessellation_rows  # Only scenes of curves wait for it.
+
+        found = in_front(found, source, tessellation_rows)
+        found = replace(found, method=f"tessellation={source.settings.tessellation}")
+    return found
+
+
+FrontRows = Callable[[TraceSource, Integers, Integers], Sequence[InsertedRows]]
+"""From the vertices and triangles (G,) of the corners that are traced to the rows in front of them.
+
+``before`` and ``group`` of these count the corners; of several records the last one comes first.
+"""
+
+
+def in_front(found: StageTrace, source: TraceSource, front: FrontRows) -> StageTrace:
+    """Return a trace of `trace_spaces` with rows (I,) in front of those of its corners (G,), in their groups."""
+    first = np.concatenate([[0], found.steps.group_ends[:-1]])
+    for rows in front(source, found.columns["vertex"][first], found.triangle[first]):
+        ends = found.steps.group_ends
+        group = np.repeat(np.arange(len(ends)), np.diff(ends, prepend=0))
+        begins = np.concatenate([[0], ends[:-1]])
+        found = insert_rows(found, group, replace(rows, before=begins[rows.before]))
+    return found
 
 
 def trace_spaces(source: TraceSource) -> StageTrace:

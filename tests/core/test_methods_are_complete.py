@@ -33,6 +33,7 @@ SHOWN_BY = {
     "shading": SCENES["lit"],
     "object_culling": SCENES["lit"],
     "hierarchy": SCENES["lit"],
+    "tessellation": SCENES["curve"],
     "polygon_clipping": POLYGON,
     "polygon_fill": POLYGON,
 }

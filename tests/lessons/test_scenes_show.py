@@ -128,6 +128,14 @@ CLAIMS = {
     "two-boxes": lambda s: (
         not unlike(s, visibility="z-buffer") and {"tree-missed", "tree-leaf"} < s.kinds("depth")
     ),
+    "curve": lambda s: s.document.triangle_count == 6 and len(s.column("transform", "level")) > 7 * 6,
+    "curve-in-depth": lambda s: set(s.document.scene.curves.control[0, :, 3]) == {1, 2, 4},
+    "hill": lambda s: s.document.triangle_count == 72 and "normal" in s.kinds("transform"),
+    "cracked-patches": lambda s: (
+        (counts := s.column("transform", "count"))[counts > 0].tolist() == [2, 1, 3, 1]
+        and s.frame().cover_count[4:44].min(axis=0).size == 64
+        and len(s.pixels(tessellation="uniform")) > len(s.pixels())
+    ),
     "teapot": lambda s: s.document.triangle_count == 2256,
     "sphere": lambda s: s.document.triangle_count == 2208 and "lit" in s.kinds("shade"),
     "torus": lambda s: s.run.stage("depth").marks["depth-failed"].any(),

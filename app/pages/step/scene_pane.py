@@ -59,18 +59,25 @@ def _clip_window_outline(scene: ClipScene, size: tuple[int, int]) -> OutlineGrou
 def _clip_outline(scene: ClipScene, triangle: int | None, size: tuple[int, int]) -> tuple[OutlineGroup, ...]:
     if scene.table is not None:
         return ()
-    shown = range(min(len(scene.clip), TYPED_TRIANGLES)) if triangle is None else [triangle]
-    window, colors = window_of_clip(scene.clip, size), transform_vertices(scene).colors
+    places, corners = scene.clip, scene.corner_count
+    colors: Sequence[int | None] = transform_vertices(scene).colors
+    one, vertex = nouns(scene.corner_count).one, "vertex"
+    if scene.curves is not None:
+        places, one, vertex, triangle = scene.curves.control, "curve", "control point", None
+        corners = places.shape[1]
+        colors = [None] * corners
+    shown = range(min(len(places), TYPED_TRIANGLES)) if triangle is None else [triangle]
+    window = window_of_clip(places, size)
     groups = []
     for index in shown:
         rows = []
-        for corner in range(scene.corner_count):
+        for corner in range(corners):
             path = f"corner/{index}/{corner}"
             if not np.isfinite(window[index, corner]).all():
                 rows.append(
                     OutlineRow(
                         path,
-                        f"vertex {corner}",
+                        f"{vertex} {corner}",
                         vertex=colors[corner],
                         note="at w = 0: no place in the window",
                     )
@@ -80,8 +87,8 @@ def _clip_outline(scene: ClipScene, triangle: int | None, size: tuple[int, int])
                 OutlineValue(name, float(number))
                 for name, number in zip(WINDOW_NAMES, window[index, corner], strict=True)
             )
-            rows.append(OutlineRow(path, f"vertex {corner}", values, vertex=colors[corner]))
-        title = f"{nouns(scene.corner_count).one.capitalize()} {index}"
+            rows.append(OutlineRow(path, f"{vertex} {corner}", values, vertex=colors[corner]))
+        title = f"{one.capitalize()} {index}"
         groups.append(OutlineGroup(f"triangle/{index}", title, tuple(rows)))
     if scene.corner_count == 2 or scene.corner_count > 3 or scene.clip_region is not None:
         groups.append(_clip_window_outline(scene, size))

@@ -179,6 +179,10 @@ def traces() -> dict[str, dict[str, Trace]]:
     for name in table.names("shadow")[1:]:
         shaded = Settings(shadow=name, map_size=16)
         windows[f"shadow {name}"] = trace(make_scene("box-in-light"), shaded, 0, (22, 26, 8, 1))
+    for name in table.names("tessellation"):
+        cut = Settings(tessellation=name, segments=3, curve_tolerance=64)
+        for scene in ("curve-in-depth", "hill"):
+            windows[f"{scene} {name}"] = trace(make_scene(scene), cut, 2, (0, 0, *WINDOW), before="cleared")
     few = replace(make_scene("cube"), size=(32, 24))
     in_tree = Settings(visibility="ray-casting-tree", hierarchy="bvh", leaf_size=2)
     windows["rays in a tree"] = trace(few, in_tree, None, (0, 0, 32, 24), before="cleared")

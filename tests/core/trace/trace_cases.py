@@ -85,6 +85,9 @@ def textured_clip_scene() -> ClipScene:
 
 LEFT_OUT = (
     "crossing-glass",
+    "curve-in-depth",
+    "hill",
+    "cracked-patches",
     "fan",
     "triangle-strip",
     "polygon",

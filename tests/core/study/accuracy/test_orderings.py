@@ -41,6 +41,24 @@ def test_line() -> None:
     assert bresenham.errors["not-nearest"] == 0
 
 
+def test_tessellation() -> None:
+    # The largest second difference of the arch is (-30, -42): six times its length is 309.7, an eighth of it 38.7, so
+    # ceil(sqrt(38.7 / 0.5)) = 9 segments keep half a pixel. Halving makes 16, as it can only double; where a curve
+    # bends at one place, it makes fewer.
+    arch, hook = (run("tessellation", name, segments=6) for name in ("arch", "hook"))
+    assert {name: found.counts["segments"] for name, found in arch.items()} == {
+        "uniform": 6,
+        "bound": 9,
+        "adaptive": 16,
+    }
+    assert hook["adaptive"].counts["segments"] < hook["bound"].counts["segments"]
+    for found in (arch, hook):
+        assert all(found[name].errors["deviation"] <= 0.5 for name in ("bound", "adaptive"))
+    assert arch["uniform"].errors["deviation"] > 0.5
+    # Every point of a cubic takes 3 + 2 + 1 mixtures.
+    assert arch["bound"].counts["mixtures"] == 10 * 6
+
+
 def test_fill() -> None:
     # 48 boxes of 4 x 4 pixels hold 16 centres each, wherever they lie; brute force tests all 256 x 256.
     fills = run("fill", "triangles", size=4)

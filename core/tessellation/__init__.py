@@ -1,0 +1,1 @@
+"""Curves into line strips and patches into triangles, before any matrix."""
