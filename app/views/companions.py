@@ -326,7 +326,7 @@ COMPANIONS: dict[str, type[Companion]] = {
     "resolve": ScreenBeside,
     "order": FillingTable,
 }
-"""By stage; ``order`` takes the place of ``depth`` where the drawing order has rows and a table of its own."""
+"""By stage; ``order`` takes the place of ``depth`` and ``transform`` where the rows that come first have a table."""
 
 
 def new_depths(moment: Moment, stage: StageTrace, row: int) -> GridBuffer:
@@ -367,8 +367,7 @@ def entered_diagram(moment: Moment) -> Diagram:
             ]
     drawn = nouns(is_there.shape[1])
     said = f"{drawn.vertices.capitalize()} appear here when they are divided by w."
-    if row >= 0:
-        k = int(stage.columns["corner"][row])
+    if row >= 0 and (k := int(stage.columns["corner"][row])) >= 0:
         space = SPACES[int(spaces_reached(trace, "transform", position)[current, k])]
         said = f"Vertex {k} of {drawn.one} {stage.triangle[row]} is in {space} space."
         if is_there[current, k]:

@@ -105,8 +105,8 @@ class Scene3dPresenter(QObject):
                 self._draw()
             return
         before = self._document
-        self._document = document
-        self._space = make_space(document.traced_scene, self._moment.trace.source.geometry.vertices)
+        self._document, source = document, moment.trace.source
+        self._space = make_space(source.scene, source.geometry.vertices)
         if before is None or _place_of(before) != _place_of(document):
             self._begin_anew()
         self._view.set_caption(self._caption())

@@ -20,6 +20,7 @@ from core.records.primitives import Primitives, own_corners
 from core.records.words import nouns
 from core.scene import AnyScene, Camera, ClipScene, Mesh, Scene
 from core.stages.declared import GEOMETRY_STAGES, STAGES
+from core.tessellation.scheme import scheme_of
 from core.trace import scene_triangle_count
 from core.transform.matrices import projection, transform, world_to_camera
 from core.transform.traced import SPACES, is_dropped, spaces_reached, triangles_done
@@ -312,7 +313,15 @@ def _corner_marks(moment: Moment, space: ViewSpace, position: int) -> list[Space
         point = space.corners(int(triangles[numbers[place]]))[corners[place]]
         marks.append(SpaceMark(point[None], "text", shape="disc"))
     row, _ = trace.steps.row_at(position)
-    if row >= 0:
+    scheme = scheme_of(moment.trace, trace, row)
+    if scheme is not None:
+        lines, made = (space.place(places) for places in scheme)
+        marks += [SpaceMark(line, "text") for line in lines if np.isfinite(line).all()]
+        label = "vertex" if trace.kind_of(row) == "emit" else "mixture"
+        marks += [
+            SpaceMark(point[None], "accent", label, "ring") for point in made if np.isfinite(point).all()
+        ]
+    elif row >= 0 and trace.columns["corner"][row] >= 0:
         triangle, corner = int(trace.triangle[row]), int(trace.columns["corner"][row])
         number = int(np.flatnonzero(triangles == triangle)[0])
         label = f"vertex {corner}: {SPACES[reached[number, corner]]} space"

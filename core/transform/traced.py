@@ -109,7 +109,8 @@ def trace_transform(source: TraceSource) -> StageTrace:
         from core.tessellation.traced import tessellation_rows  # Only scenes of curves wait for it.
 
         found = in_front(found, source, tessellation_rows)
-        found = replace(found, method=f"tessellation={source.settings.tessellation}")
+        given = dict.fromkeys(("mix", "mix-row", "mix-column"), ("s", "t"))
+        found = replace(found, method=f"tessellation={source.settings.tessellation}", given=given)
     return found
 
 

@@ -6,6 +6,7 @@ from lessons.mistakes import (
     boxes,
     clipping,
     coverage,
+    curves,
     depths,
     fragments,
     planes,
@@ -43,6 +44,7 @@ RULES: dict[str, WrongRule] = {
     rule.name: rule
     for module in (
         transforms,
+        curves,
         clipping,
         scan_conversion,
         surfaces,

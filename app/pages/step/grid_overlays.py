@@ -14,6 +14,7 @@ from core.records.clip_region import region_in_window
 from core.records.primitives import Rings, join_rings
 from core.records.steps import Level
 from core.stages.primitives import OutlineClip, region_in_pixels
+from core.tessellation.scheme import scheme_of
 from core.trace import StageTrace, Trace
 from core.transform.traced import WINDOW, spaces_reached
 from widgets.grid.layers import CellMark, GridBuffer, MaskOverlay, Overlay, SegmentOverlay
@@ -72,10 +73,17 @@ def _geometry_mark(
     no_lines, no_points = np.empty((0, 2, 2)), np.empty((0, 2))
     columns, kind, triangle = stage.columns, stage.kind_of(row), int(stage.triangle[row])
     if stage.stage == "transform":
-        reached = spaces_reached(trace, stage.stage, position).ravel()
-        rows = len(stage.triangle) // max(len(reached), 1)
-        is_placed = reached[row // rows] == WINDOW
-        return no_lines, _corners(trace, triangle)[[int(columns["corner"][row])]] if is_placed else no_points
+        scheme = scheme_of(trace, stage, row)
+        if scheme is not None:
+            lines, points = (_in_window(trace, places) for places in scheme)
+            return lines[np.isfinite(lines).all(axis=(1, 2))], points[np.isfinite(points).all(axis=1)]
+        if kind == "cut-halve":
+            ends = [columns[name][row] for name in ("chord_start", "chord_end", "control_point")]
+            return np.array([ends[:2]]), np.array(ends[2:])
+        corner, assembled = int(columns["corner"][row]), trace.source.geometry.assembled.triangle
+        reached = spaces_reached(trace, stage.stage, position)[assembled == triangle]
+        is_placed = corner >= 0 and reached[0, corner] == WINDOW
+        return no_lines, _corners(trace, triangle)[[corner]] if is_placed else no_points
     if kind in ("written", "flushed"):
         height, width = trace.source.raster.shape
         first, origin = trace.source.raster.bounds[:2]
@@ -133,6 +141,12 @@ def _clipped_edge(trace: Trace, stage: StageTrace, row: int) -> tuple[Floats, Fl
     points = columns["point"][row][None]
     lines = np.stack(ends)
     return lines[np.isfinite(lines).all(axis=(1, 2))], points[np.isfinite(points).all(axis=1)]
+
+
+def _in_window(trace: Trace, clip: Floats) -> Floats:
+    """Return window positions (..., 2) of clip positions (..., 4), NaN where w <= 0."""
+    w = np.where(clip[..., 3:] > 0, clip[..., 3:], np.nan)
+    return np.asarray((clip[..., :2] / w + 1) / 2 * np.array(trace.source.scene.size))
 
 
 def _corners(trace: Trace, triangle: int) -> Floats:

@@ -218,7 +218,7 @@ class MainArea(QWidget):
     def _companion(self) -> Companion | None:
         """Return what stands beside the stage's own view."""
         stage = self._moment.cursor.stage
-        if stage == "depth" and self.companions["order"].is_wanted(self._moment):
+        if stage in ("depth", "transform") and self.companions["order"].is_wanted(self._moment):
             return self.companions["order"]
         if stage == "shade" and self.companions["pass"].is_wanted(self._moment):
             return self.companions["pass"]

@@ -1,0 +1,67 @@
+"""Curves: a point by de Casteljau's scheme, how many segments keep a tolerance, and the division by w."""
+
+from fractions import Fraction
+
+from lessons.exercises.drafting import by_rule, listed
+from lessons.exercises.numbers import Draws, reject
+from lessons.exercises.question import Draft, template
+from lessons.mistakes.curves import cut_then_divided
+
+
+@template("curve-point", 1, "A point of a curve", "transform", 2)
+def draw_point(draws: Draws) -> Draft:
+    """The point of a curve of three or four control points."""
+    count = draws.item((3, 4))
+    t = draws.item((Fraction(1, 2), Fraction(1, 4), Fraction(3, 4)))
+    # So that every level has whole numbers, or halves.
+    unit = t.denominator ** (count - 2)
+    points = tuple(
+        (draws.whole(0, 16 // unit) * unit, draws.whole(0, 16 // unit) * unit) for _ in range(count)
+    )
+    reject(len(set(points)) < count)
+    given = f"{listed('P{} = {}', range(count), points)}\nt = {t}"
+    levels = "two" if count == 3 else "three"
+    asked = f"""Where is the point of this Bezier curve at t?
+        Hint: Mix each two neighbours: 1 − t of the first and t of the second.
+        Hint: {count} points give {count - 1} mixtures. Mix these in the same way, level by level, until one point is
+        left.
+        Hint: There are {levels} levels here, and the first mixture of the first is a point between P0 and P1."""
+    return by_rule(
+        asked,
+        given,
+        (points, t),
+        ("shares-of-t-swapped", "ends-mixed", "one-level-of-mixtures"),
+        ("x", "y"),
+    )
+
+
+@template("segments-to-tolerance", 1, "Segments to a tolerance", "transform", 2)
+def draw_count(draws: Draws) -> Draft:
+    """The fewest equal steps that keep a curve within a tolerance."""
+    tolerance = draws.item((Fraction(1, 4), Fraction(1, 2), Fraction(1), Fraction(2)))
+    deviation = Fraction(draws.whole(3, 60))
+    reject(deviation / tolerance <= 2)
+    given = f"With one segment the curve is at most {deviation} pixels away.\nTolerance: {tolerance} pixel"
+    asked = """How many equal steps of t are the fewest that surely keep the curve within the tolerance?
+        Hint: With n equal steps, each piece is n times as short, and the deviation n² times as small.
+        Hint: Divide what one segment deviates by the tolerance: n² is at least so much.
+        Hint: A strip of n segments has n + 1 ends. The segments are asked for."""
+    return by_rule(asked, given, (deviation, tolerance), ("deviation-falls-with-n", "points-for-segments"))
+
+
+@template("curve-in-perspective", 1, "A curve in perspective", "transform", 3)
+def draw_depth(draws: Draws) -> Draft:
+    """Where the middle of a curve lies in the window whose ends are not equally far."""
+    places = tuple(draws.whole(0, 12) for _ in range(3))
+    w = (1, draws.item((1, 2)), draws.item((3, 4, 5)))
+    t = Fraction(1, 2)
+    found = cut_then_divided(places, w, t)
+    reject(len(set(places)) < 3 or found.denominator > 12)
+    given = listed("P{}: window x = {}, w = {}", range(3), places, w)
+    asked = """At which window x lies the point of this curve at t = 1/2? The curve is cut in clip space, before
+        anything is divided by w.
+        Hint: In clip space each control point has x w and w. Both are mixed.
+        Hint: At t = 1/2 a curve of three points is a quarter of the first, a half of the second and a quarter of the
+        third.
+        Hint: Divide the mixture of x w by that of w, at the end."""
+    return by_rule(asked, given, (places, w, t), ("divided-before-cutting",), ("x",))

@@ -1,0 +1,121 @@
+"""Mistakes of curves: shares, levels, the number of segments, and dividing before the curve is cut."""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import pairwise
+from math import isqrt
+
+from lessons.mistakes.twin import WrongRule
+
+Points = Sequence[tuple[int, ...]]
+
+
+def mixed(points: Sequence[Fraction], t: Fraction) -> Fraction:
+    """Return a coordinate of a curve's point, by de Casteljau's scheme."""
+    left = [Fraction(point) for point in points]
+    while len(left) > 1:
+        left = [(1 - t) * a + t * b for a, b in pairwise(left)]
+    return left[0]
+
+
+def curve_point(points: Points, t: Fraction) -> tuple[Fraction, ...]:
+    """Return the point of a curve at t."""
+    return tuple(mixed([Fraction(c) for c in column], t) for column in zip(*points, strict=True))
+
+
+def shares_swapped(points: Points, t: Fraction) -> tuple[Fraction, ...]:
+    """Take t of the first of two neighbours."""
+    return curve_point(points, 1 - t)
+
+
+def ends_mixed(points: Points, t: Fraction) -> tuple[Fraction, ...]:
+    """Mix the two ends alone, as on a straight line."""
+    return curve_point([points[0], points[-1]], t)
+
+
+def first_level(points: Points, t: Fraction) -> tuple[Fraction, ...]:
+    """Stop at the first mixture of the first level."""
+    return curve_point(points[:2], t)
+
+
+def least_segments(deviation: Fraction, tolerance: Fraction) -> int:
+    """Return the least n for which deviation / n^2 is within the tolerance."""
+    ratio = deviation / tolerance
+    n = isqrt(ratio.numerator // ratio.denominator)
+    return max(n if n * n >= ratio else n + 1, 1)
+
+
+def falls_with_n(deviation: Fraction, tolerance: Fraction) -> int:
+    """Divide the deviation by n alone."""
+    ratio = deviation / tolerance
+    return max(-(-ratio.numerator // ratio.denominator), 1)
+
+
+def points_counted(deviation: Fraction, tolerance: Fraction) -> int:
+    """Count the ends of the segments."""
+    return least_segments(deviation, tolerance) + 1
+
+
+def cut_then_divided(places: Sequence[int], w: Sequence[int], t: Fraction) -> Fraction:
+    """Return where a curve's point at t lies in the window: mixed in clip space, and then divided by w."""
+    x = mixed([Fraction(p * k) for p, k in zip(places, w, strict=True)], t)
+    return x / mixed([Fraction(k) for k in w], t)
+
+
+def divided_then_cut(places: Sequence[int], w: Sequence[int], t: Fraction) -> Fraction:
+    """Mix the control points after their division."""
+    return mixed([Fraction(p) for p in places], t)
+
+
+_HALF = Fraction(1, 2)
+
+RULES = (
+    WrongRule(
+        "shares-of-t-swapped",
+        "The first of two neighbours got the share t. It gets 1 − t: at t = 0 the curve begins at its first point.",
+        curve_point,
+        shares_swapped,
+        (((0, 0), (0, 8), (8, 8)), Fraction(1, 4)),
+        (((0, 0), (0, 8), (8, 8)), _HALF),
+    ),
+    WrongRule(
+        "ends-mixed",
+        "Only the two ends were mixed, which gives the chord. Mix all neighbours, then the mixtures, to one point.",
+        curve_point,
+        ends_mixed,
+        (((0, 0), (0, 8), (8, 8)), _HALF),
+        (((0, 0), (4, 4), (8, 8)), _HALF),
+    ),
+    WrongRule(
+        "one-level-of-mixtures",
+        "The first mixture was taken for the point. It is a point of the control polygon: go on until one is left.",
+        curve_point,
+        first_level,
+        (((0, 0), (0, 8), (8, 8)), _HALF),
+        (((0, 0), (0, 0), (0, 0)), _HALF),
+    ),
+    WrongRule(
+        "deviation-falls-with-n",
+        "The deviation was divided by n. With n equal steps it is n² times as small.",
+        least_segments,
+        falls_with_n,
+        (Fraction(16), Fraction(1)),
+        (Fraction(1), Fraction(1)),
+    ),
+    WrongRule(
+        "points-for-segments",
+        "The points were counted. A strip of n segments has n + 1 ends.",
+        least_segments,
+        points_counted,
+        (Fraction(16), Fraction(1)),
+        (),
+    ),
+    WrongRule(
+        "divided-before-cutting",
+        "The control points were divided by w before the curve was cut. Mix x w and w, then divide the point.",
+        cut_then_divided,
+        divided_then_cut,
+        ((0, 8, 8), (1, 1, 3), _HALF),
+        ((0, 8, 8), (2, 2, 2), _HALF),
+    ),
+)
