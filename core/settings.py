@@ -444,30 +444,6 @@ def import_methods(settings: Settings) -> None:
             table.get(family, getattr(settings, family))
 
 
-def settings_from_texts(pairs: Mapping[str, str], base: Settings | None = None) -> Settings:
-    """Return ``base``, or the defaults, changed by texts such as ``{"fill": "blocks", "block_size": "4"}``.
-
-    A wrong name raises ValueError.
-    """
-    for name in pairs:
-        if name not in FIELDS:
-            raise ValueError(f"setting must be one of {', '.join(sorted(FIELDS))}, got {name}")
-    values: dict[str, str | int] = dict(pairs)
-    for name in WHOLE_NUMBERS.keys() & pairs.keys():
-        try:
-            values[name] = int(pairs[name])
-        except ValueError:
-            raise ValueError(f"{name} must be a whole number, got {pairs[name]}") from None
-    return replace(base or Settings(), **values)  # type: ignore[arg-type]
-
-
-def settings_record(settings: Settings) -> dict[str, str | int]:
-    """Return settings by name, as files keep them; ValueError where a function was replaced, which has no name."""
-    for family, method in settings.replacements.items():
-        raise ValueError(f"{family} {method.name} runs a replaced function, which cannot be saved")
-    return dict(vars(settings))
-
-
 def with_method(settings: Settings, family: str, name: str) -> Settings:
     """Return settings that choose the method ``name`` of one family."""
     return replace(settings, **{family: name})  # type: ignore[arg-type]

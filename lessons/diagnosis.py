@@ -13,7 +13,8 @@ from core.records.arrays import Flags, Integers
 from core.records.frame import Frame
 from core.resolved import resolve
 from core.scene import AnyScene, ClipScene
-from core.settings import FAMILIES, no_effect, settings_from_texts
+from core.setting_texts import settings_from_texts
+from core.settings import FAMILIES, no_effect
 from core.transform.vertex_stage import transform_vertices
 from lessons.mistakes.shelf import SHELF
 from lessons.mistakes.twin import Twin, same_scene

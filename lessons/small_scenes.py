@@ -10,7 +10,7 @@ from core import Settings, render
 from core.clipping.sutherland_hodgman import clip_polygons, distance_from
 from core.records.arrays import Floats
 from core.scene import ClipScene
-from lessons.scenes import assembled
+from lessons.assembled_scenes import assembled
 from lessons.window_scenes import window_triangle
 
 # Small scenes given in the window: triangles of exercises, segments between pixels.

@@ -7,7 +7,8 @@ import pytest
 
 from app.files.open_any import open_any
 from core.methods import table
-from core.settings import families, no_effect, settings_from_texts
+from core.setting_texts import settings_from_texts
+from core.settings import families, no_effect
 from core.stages.declared import STAGES
 from lessons.course.catalogue import shipped
 from lessons.lectures.catalogue import PRINTED

@@ -21,7 +21,7 @@ from core import Settings
 from core.edits import EDITABLE, Edit, apply_edit
 from core.lanes.problem import LISTING, Problem
 from core.scene import SIZE_LIMIT, AnyScene
-from core.settings import settings_from_texts
+from core.setting_texts import settings_from_texts
 
 if TYPE_CHECKING:
     from app.files.user_folders import FolderList

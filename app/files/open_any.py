@@ -12,7 +12,7 @@ from app.files.state_files import EXTENSION, State, load_state
 from app.session.document import STEPPED, Document, check_drawing, focus_on, open_document, shortened
 from app.session.memory import MemoryBoundError
 from core.scene import AnyScene, Scene
-from core.settings import settings_from_texts
+from core.setting_texts import settings_from_texts
 from lessons.lectures.scenes import ALL_SCENES
 from lessons.run_place import FIRST_STEP, RunPlace
 

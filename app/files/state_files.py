@@ -40,7 +40,8 @@ from app.files.state_scenes import (
 from app.session.document import Document, TeachingRaster
 from core.lines.line_method import line_of_kind
 from core.scene import AnyScene
-from core.settings import Settings, settings_from_texts, settings_record
+from core.setting_texts import settings_from_texts, settings_record
+from core.settings import Settings
 from core.stages.needs import check_edits, check_needs
 from core.trace import StageTrace
 from core.trace.conditions import parse_condition

@@ -18,7 +18,7 @@ from app.session.moment import Change
 from app.session.session import Session
 from core.fast_path.draw import draw_picture
 from core.scene import AnyScene, Scene
-from core.settings import settings_from_texts
+from core.setting_texts import settings_from_texts
 from lessons.lectures.scenes import ALL_SCENES, LECTURE_SCENES, LECTURES
 from lessons.scene_edits import scene_digest
 from lessons.scenes import CATALOGUE, BuiltInScene

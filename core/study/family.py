@@ -10,7 +10,8 @@ import numpy as np
 
 from core.methods import table
 from core.scene import AnyScene
-from core.settings import Settings, settings_from_texts
+from core.setting_texts import settings_from_texts
+from core.settings import Settings
 from core.study.record import ErrorMeasure, Judgement, Load, Opening, Pictures, WorkKind, collector_off
 
 BLOCK = 0.003

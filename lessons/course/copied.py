@@ -11,7 +11,7 @@ from core import Settings, Trace
 from core.edits import Edit
 from core.records.arrays import Floats
 from core.scene import AnyScene, ClipScene, PointLight, Scene
-from core.settings import settings_from_texts, settings_record
+from core.setting_texts import settings_from_texts, settings_record
 from core.trace import StageTrace
 from core.trace.run_to import END
 from lessons.course.quoted import flags_of

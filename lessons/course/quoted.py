@@ -19,7 +19,7 @@ from core.records.arrays import Flags
 from core.records.frame import Frame
 from core.records.listing import read_expression
 from core.scene import AnyScene, Scene
-from core.settings import settings_from_texts
+from core.setting_texts import settings_from_texts
 from core.study.planner.trials import difference
 from core.trace import StageTrace, trace
 from core.trace.conditions import Condition, TraceNames, evaluate, parse_condition, spelled

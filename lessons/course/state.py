@@ -12,7 +12,7 @@ from core import STAGES, Settings, Trace, trace
 from core.edits import EDITABLE, Edit, edited_settings, original, refusal
 from core.methods import ReplacedName
 from core.scene import AnyScene, ClipScene, DirectionalLight, PointLight, Scene
-from core.settings import settings_from_texts
+from core.setting_texts import settings_from_texts
 from core.shaders.presets import PRESETS, preset_program, retyped
 from core.shaders.shader import STAGES as SHADER_STAGES
 from core.trace import scene_triangle_count

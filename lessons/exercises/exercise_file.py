@@ -9,7 +9,7 @@ from typing import Any
 
 from core import Settings
 from core.scene import AnyScene, ClipScene
-from core.settings import settings_from_texts
+from core.setting_texts import settings_from_texts
 from lessons import named_files
 from lessons.exercises.answers.listings import CodeAnswer
 from lessons.exercises.answers.marked import Pixels

@@ -7,7 +7,7 @@ from functools import partial
 
 from core import Settings, render
 from core.scene import AnyScene, ClipScene
-from core.settings import settings_from_texts
+from core.setting_texts import settings_from_texts
 from core.study.planner.trials import difference, shown
 from lessons.exercises.answers.answer import Answer, Dial, Entry, NotCheckedError
 from lessons.exercises.answers.choices import ChoiceAnswer, OrderAnswer

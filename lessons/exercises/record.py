@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 from core.records.depth_table import MOST_PATCHES
 from core.records.words import counted
 from core.scene import CORNER_COUNTS
-from core.settings import settings_from_texts
+from core.setting_texts import settings_from_texts
 from lessons.exercises.answers.choices import CHOICE_LIMIT, ORDER_LIMIT
 from lessons.exercises.answers.marked import SIDE_LIMIT, read_art
 from lessons.exercises.numbers import SEED_LIMIT

@@ -15,7 +15,7 @@ import numpy as np
 from core import STAGES, Settings, trace
 from core.coverage.snapping import window_position
 from core.scene import AnyScene, ClipScene
-from core.settings import settings_from_texts, settings_record
+from core.setting_texts import settings_from_texts, settings_record
 from core.stages.declared import stage_of
 from core.trace import StageTrace
 from core.trace.stage_trace import BufferTrack

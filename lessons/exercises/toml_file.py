@@ -11,7 +11,7 @@ from typing import Annotated, Any, TypeVar, get_args
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
 from core import STAGES
-from core.settings import settings_from_texts
+from core.setting_texts import settings_from_texts
 from lessons.exercises.answers.marked import SIDE_LIMIT
 from lessons.exercises.numbers import LARGEST, Draws, Number, is_infinite, read_number
 from lessons.lectures.scenes import scene_named

@@ -13,6 +13,7 @@ from core import Settings, draw_lines
 from core.records.arrays import Flags, Floats
 from core.records.frame import Frame
 from core.scene import ClipScene
+from lessons.assembled_scenes import assembled
 from lessons.mistakes.coverage import FREE, SQUARE, with_places
 from lessons.mistakes.transforms import Vector
 from lessons.mistakes.twin import (
@@ -25,7 +26,6 @@ from lessons.mistakes.twin import (
     line_pixels,
     same_settings,
 )
-from lessons.scenes import assembled
 from lessons.small_scenes import Point, pixel_segments, segment_scene, triangle_scene
 from lessons.window_scenes import polygon_of_rings
 

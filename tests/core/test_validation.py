@@ -21,7 +21,8 @@ from core.coverage.fill_rule import owns
 from core.methods import Method, MethodTable, table
 from core.records.arrays import checked, checked_size, read_only
 from core.records.listing import listing
-from core.settings import families, settings_from_texts
+from core.setting_texts import settings_from_texts
+from core.settings import families
 
 TRIANGLE = np.array([[[0.0, 0, 0, 1], [1, 0, 0, 1], [0, 1, 0, 1]]])
 POSITIONS = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])

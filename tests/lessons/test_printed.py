@@ -11,11 +11,11 @@ from core import Settings, render, trace
 from core.explain import account, variables
 from core.methods import table
 from core.records.listing import listing
+from lessons.assembled_scenes import assembled
 from lessons.lectures.bresenham import final, missed_ends, naive
 from lessons.lectures.catalogue import PRINTED, printed_listing
 from lessons.lectures.pellacini import bresenham, dda, midpoint
 from lessons.lectures.printed import first_divergence
-from lessons.scenes import assembled
 
 LINES = [printed for printed in PRINTED if printed.rule is not None]
 

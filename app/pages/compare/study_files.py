@@ -17,7 +17,8 @@ from app.files.state_files import readable_json
 from app.files.state_models import Count, Record
 from app.pages.compare.charts import TIME, growth_of, numbers_of, scatter_of, title_of
 from app.pages.words import machine_sentence, settings_sentence, work_sentence
-from core.settings import Settings, settings_from_texts, settings_record
+from core.setting_texts import settings_from_texts, settings_record
+from core.settings import Settings
 from core.study.record import Axis, ErrorMeasure, Point, Study, WorkKind, pareto_front
 
 # A study as a file (JSON), written whole and opened again; a saved study shows the numbers of the day it

@@ -80,10 +80,10 @@ def _geometry_mark(
         if kind == "cut-halve":
             ends = [columns[name][row] for name in ("chord_start", "chord_end", "control_point")]
             return np.array([ends[:2]]), np.array(ends[2:])
-        corner, assembled = int(columns["corner"][row]), trace.source.geometry.assembled.triangle
+        k, assembled = int(columns["corner"][row]), trace.source.geometry.assembled.triangle
         reached = spaces_reached(trace, stage.stage, position)[assembled == triangle]
-        is_placed = corner >= 0 and reached[0, corner] == WINDOW
-        return no_lines, _corners(trace, triangle)[[corner]] if is_placed else no_points
+        is_placed = k >= 0 and reached[0, k] == WINDOW
+        return no_lines, _corners(trace, triangle)[[k]] if is_placed else no_points
     if kind in ("written", "flushed"):
         height, width = trace.source.raster.shape
         first, origin = trace.source.raster.bounds[:2]

@@ -7,6 +7,7 @@ import numpy as np
 
 from core import Settings, render
 from core.records.frame import Frame
+from lessons.assembled_scenes import assembled
 from lessons.exercises.answers.marked import PixelAnswer
 from lessons.exercises.coding.triangles import edge_of
 from lessons.exercises.drafting import (
@@ -27,7 +28,6 @@ from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import RULE, SIZE, Corner, corner_text, row_hint, twice_area
 from lessons.exercises.templates.transforms import wholes
 from lessons.mistakes.shelf import RULES, SHELF
-from lessons.scenes import assembled
 from lessons.small_scenes import triangle_scene
 from lessons.window_scenes import polygon_of_rings
 

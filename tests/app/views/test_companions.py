@@ -12,7 +12,7 @@ from app.session.session import Session
 from app.views.companions import COMPANIONS, entered_diagram, new_depths
 from app.window.main_window import MainWindow
 from core import Settings
-from core.settings import settings_from_texts
+from core.setting_texts import settings_from_texts
 from core.transform.traced import SPACES, spaces_reached
 from lessons.lectures.scenes import ALL_SCENES, LECTURE_SCENES
 from lessons.scenes import make_scene

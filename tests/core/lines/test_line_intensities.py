@@ -14,7 +14,8 @@ from core.methods import table
 from core.pixel_history import why
 from core.resolved import resolve
 from core.trace.source import TraceSource
-from lessons.scenes import assembled, make_scene
+from lessons.assembled_scenes import assembled
+from lessons.scenes import make_scene
 from tests.core.strategies import clip_of_window
 from tests.covering import in_turns, is_everything
 

@@ -7,7 +7,7 @@ import pytest
 from core import Settings, trace
 from core.edits import Edit, original
 from core.scene import AnyScene
-from core.settings import settings_from_texts
+from core.setting_texts import settings_from_texts
 from lessons.course.quoted import CALLED, Situation, is_right
 from lessons.course.record import UntilPart
 from lessons.course.tasks import is_done

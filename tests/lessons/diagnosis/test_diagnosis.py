@@ -9,7 +9,8 @@ import pytest
 from core import Settings, render
 from core.framebuffer.display import to_display
 from core.scene import ClipScene
-from core.settings import DEFAULTS, settings_from_texts
+from core.setting_texts import settings_from_texts
+from core.settings import DEFAULTS
 from core.transform.vertex_stage import transform_vertices
 from lessons.diagnosis import PIXEL_LIMIT, RIGHT, Diagnosis, Drawn, compared_text, diagnose
 from lessons.lectures.scenes import ALL_SCENES

@@ -12,7 +12,7 @@ from app.session.document import STEPPED, open_document
 from app.window.main_window import MainWindow
 from core import ClipScene
 from core.records.steps import Level
-from core.settings import settings_from_texts
+from core.setting_texts import settings_from_texts
 from lessons.scene_edits import set_value
 from lessons.scenes import built_in_scene
 
