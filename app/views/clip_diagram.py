@@ -74,11 +74,15 @@ def _state_of(trace: Trace, triangle: int, position: int | None) -> ClipState:
     none = np.empty((0, 4))
     row = -1 if position is None else stage.steps.row_at(position)[0]
     is_now = row >= 0 and stage.triangle[row] == triangle
+    kept = np.flatnonzero(geometry.kept.triangle == triangle)
+    if geometry.kept_pieces is not None and is_now and stage.columns["kept"][row] >= 0:
+        # The piece of the tree that the step is about.
+        kept = stage.columns["kept"][[row]]
+        before = geometry.kept_pieces.clip[kept[0]]
 
     def still(polygon: Floats, sentence: str) -> ClipState:
         return ClipState(triangle, before, polygon, none, -1, None, None, sentence, is_now)
 
-    kept = np.flatnonzero(geometry.kept.triangle == triangle)
     if not len(kept):
         index = np.flatnonzero(geometry.assembled.triangle == triangle)
         reason = REASONS[int(geometry.culled.verdict[index[0]])] if len(index) else "not traced"
@@ -96,17 +100,24 @@ def _state_of(trace: Trace, triangle: int, position: int | None) -> ClipState:
         before = clipped.polygons[0][found[0], :3, :4]
         if not clipped.planes:
             return still(before, "The {one} after the division by w: no plane clips it.")
-    return _clipped_state(trace, stage, int(found[0]), triangle, before, position)
+    return _clipped_state(trace, stage, int(found[0]), int(kept[0]), triangle, before, position)
 
 
 def _clipped_state(
-    trace: Trace, stage: StageTrace, which: int, triangle: int, before: Floats, position: int | None
+    trace: Trace,
+    stage: StageTrace,
+    which: int,
+    kept: int,
+    triangle: int,
+    before: Floats,
+    position: int | None,
 ) -> ClipState:
     clipped = trace.source.geometry.clipped
     assert clipped is not None
     own = np.flatnonzero(clipped.rows.polygon == which)
     # The trace's rows stand triangle by triangle in the same order within a triangle.
-    rows = np.flatnonzero((stage.triangle == triangle) & (stage.columns["plane"] != ""))
+    is_its = (stage.triangle == triangle) & (stage.columns["kept"] == kept)
+    rows = np.flatnonzero(is_its & (stage.columns["plane"] != ""))
     done = len(own) if position is None else int(np.searchsorted(rows, stage.steps.rows_done(position)))
     current = -1 if position is None else stage.steps.row_at(position)[0]
     is_current = current >= 0 and len(rows) > 0 and rows[0] <= current <= rows[-1]

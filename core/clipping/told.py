@@ -17,11 +17,10 @@ from core.lines.told_clipping import borders_of, code_text, is_point
 from core.methods import table
 from core.records.arrays import Flags, Integers
 from core.records.steps import Level, StepTable, TableCell
-from core.records.words import counted, joined, noun_of
+from core.records.words import capitalized, counted, joined, noun_of, piece_name
 from core.trace import StageTrace
 
 # Clipping triangles: edges against planes, new corners in either order, and division before clipping.
-
 
 PLANE_SIGNS = {
     "near": ("z", 1),
@@ -145,7 +144,8 @@ def corner_in_order(step: StepValues) -> Said:
 @explains("clip.untouched.keep")
 def untouched(step: StepValues) -> Said:
     """A triangle that crosses no plane, or is not clipped."""
-    return f"{step.name.capitalize()} is unchanged: no plane clips it."
+    piece = piece_name(step.nouns.one, step.triangle, step.whole("tree_piece"))
+    return f"{capitalized(piece)} is unchanged: no plane clips it."
 
 
 @explains("clip.divided|mirrored.divide")

@@ -177,6 +177,9 @@ def trace_clip(source: TraceSource) -> StageTrace:
         "t": numbers("t"),
         "corner": numbers("corner", 4),
     }
+    pieces = geometry.kept_pieces
+    number = np.zeros(len(kept), np.int64) if pieces is None else pieces.number
+    columns |= {"kept": polygon[order], "tree_piece": number[polygon[order]]}
     given = "plane", "start", "end", "start_distance", "end_distance"
     distances = Operation("distances", "in-in", (), given)
     clipping = resolve(source.settings).clipping

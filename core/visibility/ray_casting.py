@@ -141,6 +141,11 @@ class RayPlanes:
         return [(value > 0) - (value < 0) for value in differences]
 
 
+def ray_constants(planes: RayPlanes) -> dict[str, float]:
+    """Return what the sentences of hits take that is the same for all of them."""
+    return {"by_w": planes.by_w, "width": planes.size[0], "height": planes.size[1]}
+
+
 def set_up_ray_planes(
     clip: Floats, size: tuple[int, int], by_w: bool, shift: tuple[float, float] = (0.0, 0.0)
 ) -> RayPlanes:

@@ -31,7 +31,15 @@ from core.visibility.ray_casting import RayPlanes, decide_hits
 
 ROUNDING = 2.0**-44
 """Bound of the rounding in a slab, as a share of the sizes of all that it is made from: 512 roundings."""
-RAY_BY_RAY = RowOrder(("Row", "Ray", "Box or hit"), is_by_pixel=True)
+RAY_BY_RAY = RowOrder(
+    ("Row", "Ray", "Box or hit"),
+    is_by_pixel=True,
+    sums=(
+        ("boxes", "node", "asked"),
+        ("covered", "hit", "nearest so far, of which each ray keeps the last"),
+        ("depth-failed", "hit", "hidden or out of range"),
+    ),
+)
 """Ray after ray, and of each the boxes and triangles in the order in which it asks them."""
 OPENED, MISSED, BEHIND = range(3)
 """What becomes of a box: it is met, missed, or begins behind the nearest hit so far."""

@@ -6,7 +6,7 @@ from core.explain.formulas import Chain, below, concludes, formula_of, named, sl
 from core.explain.number_text import pair_text, spoken
 from core.explain.records import Asked, choice
 from core.explain.step_values import Said, StepValues, explains
-from core.explain.term_latex import Written
+from core.visibility.ray_casting import ROUNDING, UNDERFLOW
 
 NEW, NEAREST = below("v", "new"), below("v", "nearest")
 
@@ -38,7 +38,7 @@ def hit(step: StepValues) -> Said:
             f"{value} stands for it."
         )
     a, b, c, d, m, n = (step.named(name, name) for name in "abcdmn")
-    above = slash(a @ m, Written("W")) + slash(b @ n, Written("H")) + c
+    above = slash(a @ m, step.named("width", "W")) + slash(b @ n, step.named("height", "H")) + c
     return f"{step.pixel_name}: {text}", formula_of(value.equals(above / d))
 
 
@@ -46,10 +46,27 @@ def hit(step: StepValues) -> Said:
 def bound(step: StepValues) -> Said:
     """How far rounding may have moved the hit."""
     error = step.named("error", "e")
-    text = f"rounding has moved this {measure(step)} by at most {error}."
+    text = (
+        f"rounding has moved this {measure(step)} by at most {error}: a share of the sizes of all its terms, "
+        "numerator (n) and denominator (d)."
+    )
     if math.isinf(error.value):
         text = "float64 cannot bound the rounding error of this hit."
-    return f"{step.pixel_name}: {text}", formula_of(error)
+    if math.isinf(error.value):
+        return f"{step.pixel_name}: {text}"
+    value, d = (abs(step.number(name)) for name in ("nearness", "d"))
+    above, of_d = (named(below("e", name), of) for name, of in zip("nd", term_errors(step), strict=True))
+    size = named("|v|", value)
+    kept = (above + size @ of_d) / (named("|d|", d) - of_d)
+    return f"{step.pixel_name}: {text}", formula_of(error.equals(kept + named("2^{-49}", ROUNDING) @ size))
+
+
+def term_errors(step: StepValues) -> tuple[float, float]:
+    """Return the bounds of the rounding in the numerator and in the denominator of a hit."""
+    size_a, size_b, size_c, size_d = step.vector("sizes")
+    x, y = step.number("m") / step.number("width"), step.number("n") / step.number("height")
+    numerator = ROUNDING * (size_a * abs(x) + (size_b * abs(y) + size_c)) + UNDERFLOW
+    return numerator, ROUNDING * size_d + UNDERFLOW
 
 
 @explains("depth.ray-first.keep")

@@ -185,17 +185,18 @@ def _pair_table(trace: StageTrace, found: SortedTriangles, position: int) -> Ste
 def order_verdict(pairs: list[PairTests], many: str) -> str:
     """Return what the pairs say of an order, in one or two sentences."""
     cycle = find_cycle(pairs)
+    cut = "one has to be cut, as the painter's algorithm with a BSP tree does (pane Methods, More methods)."
     crossing = next((pair for pair in pairs if pair.verdict == "cut"), None)
     wrong = next((pair for pair in pairs if pair.verdict == "wrong"), None)
     if cycle:
         return (
             f"{many.capitalize()} {joined([str(one) for one in cycle])} overlap in a circle: each must be drawn before "
-            "the next, and the last before the first. No order paints them: one has to be cut."
+            f"the next, and the last before the first. No order paints them: {cut}"
         )
     if crossing and crossing.nearer == "both":
         return (
             f"{many.capitalize()} {crossing.first} and {crossing.second} pass through each other: each is nearer in a "
-            "part of their overlap. No order paints them: one has to be cut."
+            f"part of their overlap. No order paints them: {cut}"
         )
     if crossing:
         return f"No test orders {many} {crossing.first} and {crossing.second}: each crosses the plane of the other."

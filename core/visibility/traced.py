@@ -15,6 +15,7 @@ from core.visibility.ray_casting import (
     depth_of_nearest,
     hit_is_nearer,
     hit_value,
+    ray_constants,
 )
 from core.visibility.rays_in_tree import TreeWalk
 from core.visibility.traced_by_pixel import with_misses
@@ -96,7 +97,10 @@ def _trace_hits(source: TraceSource, rays: RayTests) -> StageTrace:
         triangle=triangle,
         pixel=np.stack([fragments.column, fragments.row], axis=1),
         listings=_listings(),
-        constants={"by_w": source.geometry.ray_planes.by_w, "quantity": source.depth_format.quantity.name},
+        constants={
+            **ray_constants(source.geometry.ray_planes),
+            "quantity": source.depth_format.quantity.name,
+        },
         marks={
             "covered": passes,
             "depth-failed": ~passes,

@@ -13,7 +13,7 @@ from core.records.listing import RETURN, Columns, Listing, Operation, listing
 from core.records.steps import RowOrder, Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace, empty_like
-from core.visibility.ray_casting import BY_FLOATS, EXACTLY, FIRST, hit_is_nearer, hit_value
+from core.visibility.ray_casting import BY_FLOATS, EXACTLY, FIRST, hit_is_nearer, hit_value, ray_constants
 from core.visibility.scan_line import ALONE, HALVED, PAIR, SAME, ScanLines, draw_rows
 
 SEGMENT_BY_SEGMENT = RowOrder(
@@ -146,9 +146,8 @@ def trace_scan_lines(source: TraceSource, lines: ScanLines) -> StageTrace:
         pixel=np.stack([column, row], axis=1),
         listings=_listings(),
         constants={
-            "by_w": lines.planes.by_w,
+            **ray_constants(lines.planes),
             "quantity": source.depth_format.quantity.name,
-            "width": lines.planes.size[0],
         },
         marks=_marks(kind, columns),
         buffers=_buffers(source, kind, columns, triangle),

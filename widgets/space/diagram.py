@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 
-from widgets.basics.drawing import LabelPlaces
+from widgets.basics.drawing import FURTHER, LabelPlaces
 from widgets.basics.theme import Theme, faded, ink_color, ink_text_color, text_font
 from widgets.grid.view import clip_segments
 from widgets.space.orbit import Orbit
@@ -364,14 +364,15 @@ def paint_label(
     theme: Theme,
     reach: float,
     is_bold: bool = False,
+    further: tuple[float, ...] = FURTHER,
 ) -> None:
-    """Write a text on a chip beside a point, if there is room."""
+    """Write a text on a chip beside a point, if there is room; ``further`` as of `LabelPlaces.find`."""
     font = text_font(theme)
     font.setBold(is_bold)
     painter.setFont(font)
     metrics = painter.fontMetrics()
     size = QSizeF(metrics.horizontalAdvance(text) + 8, metrics.height())
-    box = places.find(point, size, reach)
+    box = places.find(point, size, reach, further)
     if box is None:
         return
     painter.setPen(Qt.PenStyle.NoPen)

@@ -29,6 +29,11 @@ from widgets.space.frame_corner import FrameCorner, SizeChoice, picture_area
 from widgets.space.orbit import Orbit, ViewDepth
 from widgets.space.view import GRAB_RADIUS, OrbitArea
 
+AROUND = (1.0, 2.0, 4.0, 7.0)
+"""How far away words may stand, as multiples of their usual distance: boxes may be crowded."""
+MANY_SIDES, SMALL = 5, 0.2
+"""A mark of at least so many points, and at most this part of the picture, is a box that words should not cover."""
+
 
 @dataclass(frozen=True)
 class SceneHandle:
@@ -253,6 +258,9 @@ class SceneView(OrbitArea):
         for _, place in handles:
             places.take(QRectF(place.x() - 7, place.y() - 7, 14, 14))
         for mark in picture.marks:
+            if (around := _small_box(mark, area)) is not None:
+                places.avoid(around)
+        for mark in picture.marks:
             _paint_mark(painter, mark, area, places, theme)
         apart = [QLineF(a, b).length() for (_, a), (_, b) in combinations(handles, 2)]
         # Smaller where they would cover each other.
@@ -269,7 +277,7 @@ class SceneView(OrbitArea):
         for x, y, text, ink in picture.labels:
             placed = _place(area, x, y)
             if placed is not None:
-                paint_label(painter, places, placed, text, ink, theme, 4.0)
+                paint_label(painter, places, placed, text, ink, theme, 4.0, further=AROUND)
 
     def _placed_handles(self) -> list[tuple[SceneHandle, QPointF]]:
         """Return the handles that have a place in the widget, each with it."""
@@ -323,6 +331,19 @@ def _place(area: QRectF, x: float, y: float) -> QPointF | None:
     return place if abs(place.x()) < 1e7 and abs(place.y()) < 1e7 else None
 
 
+def _small_box(mark: SceneMark, area: QRectF) -> QRectF | None:
+    """Return the rectangle around a mark that words should leave visible; ``None``: it is large, or not in the area."""
+    with np.errstate(invalid="ignore"):
+        is_placed = (np.abs(mark.points) < 1e3).all(axis=1)
+    if len(mark.points) < MANY_SIDES or not is_placed.any():
+        return None
+    (left, bottom), (right, top) = mark.points[is_placed].min(axis=0), mark.points[is_placed].max(axis=0)
+    if max(right - left, top - bottom) > SMALL:
+        return None
+    first, last = _place(area, left, top), _place(area, right, bottom)
+    return None if first is None or last is None else QRectF(first, last)
+
+
 def _paint_mark(painter: QPainter, mark: SceneMark, area: QRectF, places: LabelPlaces, theme: Theme) -> None:
     """Paint a line over the picture, and the mark at its end."""
     runs: list[list[QPointF]] = [[]]
@@ -349,4 +370,4 @@ def _paint_mark(painter: QPainter, mark: SceneMark, area: QRectF, places: LabelP
         paint_spot(painter, last, spot, theme)
         places.take(QRectF(last.x() - 5, last.y() - 5, 10, 10))
     if mark.label:
-        paint_label(painter, places, last, mark.label, mark.ink, theme, 7.0)
+        paint_label(painter, places, last, mark.label, mark.ink, theme, 7.0, further=AROUND)

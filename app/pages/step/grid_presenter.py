@@ -19,6 +19,7 @@ from app.pages.step.grid_records import (
     is_presented,
     mask_overlays,
     outlined_triangles,
+    piece_overlays,
     sample_dots,
     span_overlays,
 )
@@ -157,17 +158,19 @@ class PixelMenu(QObject):
 
 OUTLINING = ("transform", "cull")
 """Stages in which outlines appear and vanish."""
+PIECES = "tree pieces"
+"""Key of the overlay that outlines the pieces of a BSP tree."""
 CENTRES = "centres"
 """Key of the overlay that writes centres on the axes."""
 DEFAULT_OVERLAYS = {
-    "edges": frozenset({"edge lines"}),
-    "bin": frozenset({"blocks"}),
-    "clip": frozenset({"clip window", "clipped polygon"}),
+    "edges": frozenset({"edge lines", PIECES}),
+    "bin": frozenset({"blocks", PIECES}),
+    "clip": frozenset({"clip window", "clipped polygon", PIECES}),
     "raster": frozenset(
-        {"rejected", "tie", "nan", "spans", "clip window", "clipped lines", "clipped polygon"}
+        {"rejected", "tie", "nan", "spans", "clip window", "clipped lines", "clipped polygon", PIECES}
     ),
     "shade": frozenset({*LANE_MARKS, "unset", "nan"}),
-    "depth": frozenset({"failed", "nan"}),
+    "depth": frozenset({"failed", "nan", PIECES}),
     "resolve": frozenset({"nan", "cutting edge", "cut polygon"}),
 }
 """Overlays that are on at first, by stage."""
@@ -349,6 +352,7 @@ class GridPresenter(QObject):
             *clip_overlays(moment),
             *polygon_overlays(moment),
             *edge_overlays(moment, self._geometry),
+            *piece_overlays(moment),
             CenterOverlay(CENTRES),
         ]
 

@@ -202,6 +202,20 @@ def edge_overlays(step: Step, geometry: GridGeometry) -> list[Overlay]:
     return [SegmentOverlay("edge lines", segments, (0, 1, 2)[:count], extended=True, title="edge lines")]
 
 
+def piece_overlays(step: Step) -> list[Overlay]:
+    """Return the outlines of the pieces that a tree has cut triangles into, where they lie before the eye."""
+    pieces = step.trace.source.geometry.kept_pieces
+    if pieces is None or STAGES.index(step.cursor.stage) < STAGES.index("clip"):
+        return []
+    clip = pieces.clip[(pieces.number > 0) & (pieces.clip[..., 3] > 0).all(axis=1)]
+    if not len(clip):
+        return []
+    size, origin = np.array(step.trace.source.scene.size), np.array(step.origin)
+    window = (clip[..., :2] / clip[..., 3:] + 1) / 2 * size - origin
+    sides = np.stack([window, np.roll(window, -1, axis=1)], axis=2).reshape(-1, 2, 2)
+    return [SegmentOverlay("tree pieces", sides, title="pieces of the tree")]
+
+
 def block_overlays(step: Step) -> list[Overlay]:
     """Return the boxes and blocks that binning has tested so far (all of them in later stages)."""
     stage, trace = step.stage_trace, step.trace

@@ -110,6 +110,10 @@ class Seen:
     """Fragments that fail the depth test there, so that an early test leaves their shading out; 0: it may not."""
     fragments: int
     """Fragments there."""
+    covered: int
+    """Pixels there with a fragment."""
+    overlapped: int
+    """Pixels there with several."""
     pixels: int
     """Of the whole picture."""
     depth: tuple[float, float] | None
@@ -155,6 +159,8 @@ def look(scene: AnyScene, everything: Settings, regions: tuple[tuple[int, int, i
         if scene.program is None and everything.polygon_mode == "fill"
         else 0,
         fragments=sum(frame.statistics["depth"].incoming for frame in frames),
+        covered=sum(int(np.count_nonzero(frame.cover_count)) for frame in frames),
+        overlapped=sum(int(np.count_nonzero(frame.cover_count > 1)) for frame in frames),
         pixels=scene.size[0] * scene.size[1],
         depth=(float(depth.min()), float(depth.max())) if depth.size else None,
         far=far_triangles(geometry),

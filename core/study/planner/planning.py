@@ -6,11 +6,12 @@ left 0.56: they reject whatever they cannot prove.
 """
 
 from collections.abc import Callable
+from math import ceil, log2
 from time import perf_counter
 
 from core.records.words import capitalized, counted, joined, nouns
 from core.scene import AnyScene
-from core.settings import Settings, with_method
+from core.settings import DEFAULTS, Settings, with_method
 from core.study.planner.findings import Seen, facts_of, look, tessellations
 from core.study.planner.records import (
     Decision,
@@ -129,7 +130,24 @@ def _visibility_fact(seen: Seen) -> str:
     if seen.in_view and seen.corner_count == 3:
         asked = counted(seen.in_view, "{one}", "{many}")
         text += f" Rays, one for each pixel, would ask {asked} {counted(seen.pixels, 'time')}."
+        text += _tree_fact(seen.triangles)
+        text += (
+            f" Scan lines would compare depths only where {{many}} overlap: in {seen.overlapped:,} of "
+            f"{counted(seen.covered, 'pixel')} that {'was' if seen.covered == 1 else 'were'} looked at."
+        )
     return text
+
+
+def _tree_fact(count: int) -> str:
+    """Return what a ray asks in a tree of boxes, cut in the middle, that it goes down once."""
+    in_leaf = DEFAULTS.leaf_size
+    if count <= in_leaf:
+        return ""
+    boxes = 1 + 2 * ceil(log2(count / in_leaf))
+    return (
+        f" In a BVH of all, {in_leaf} to a leaf, a ray that meets one box in each level would ask at most {boxes} "
+        f"boxes and {in_leaf} {{many}}."
+    )
 
 
 def _texture_fact(seen: Seen) -> str:

@@ -4,8 +4,16 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from core import STAGES, Settings, trace
-from core.explain.stage_texts import ACCOUNTS, family_title, initial_sentence, method_text, stage_card
+from core.explain.stage_texts import (
+    ACCOUNTS,
+    family_title,
+    initial_sentence,
+    method_text,
+    stage_card,
+    summary_sentence,
+)
 from core.methods import table
+from core.records.steps import Level
 from core.settings import FAMILIES, families
 from core.stages.declared import DECLARED, stage_of
 from lessons.scenes import make_scene
@@ -73,3 +81,15 @@ def test_edges_begin_with_no_word_on_snapping_which_only_some_number_formats_do(
         step = trace(make_scene("single-triangle"), Settings(coverage=coverage)).stage("edges").explain(1)
         assert step is not None
         assert step.listing is None or "snap" not in step.listing.source
+
+
+def test_rays_in_a_tree_say_what_is_kept_and_what_was_nearest_so_far() -> None:
+    scene = make_scene("intersecting")
+    traced = trace(scene, Settings(visibility="ray-casting-tree"))
+    stage = traced.stage("depth")
+    counts = stage.summary(0, stage.steps.row_count)
+    text = summary_sentence("depth", Level.STAGE, counts, None, 3, stage.method, stage.order)
+    nearest = counts["covered"]
+    assert f" {nearest:,} hits nearest so far, of which each ray keeps the last" in text
+    assert traced.source.depth_tests.passes.sum() < nearest
+    assert "kept" not in text

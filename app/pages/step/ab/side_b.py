@@ -49,19 +49,36 @@ AS_PRINTED = "-lecture"
 """What the names of methods as printed end in, behind the name of the right one."""
 
 
-def counterparts(settings: Settings, stage: str) -> Iterator[tuple[str, str]]:
-    """Yield families and methods that stand against what is chosen at a stage.
+AGAINST: Mapping[str, Mapping[str, tuple[str, ...]]] = {
+    "visibility": {
+        "painters": ("bsp",),
+        "scan-line": ("z-buffer",),
+        "ray-casting-tree": ("ray-casting-by-pixel",),
+        "ray-casting-by-pixel": ("z-buffer",),
+    },
+    "depth_test_time": {"early": ("late",)},
+}
+"""Family and method to what it is compared with in the lectures, though both may end with the same picture."""
+SHOWN_IN = {"visibility": ("depth",), "depth_test_time": ("shade", "depth")}
+"""The stages whose steps show what such methods do otherwise."""
 
-    They are the right one against one as printed, and a tree against a sort.
-    """
+
+def counterparts(settings: Settings, stage: str) -> Iterator[tuple[str, str]]:
+    """Yield families and methods that are compared with what is chosen, by the lectures' own words."""
+    for family, against in AGAINST.items():
+        chosen = getattr(settings, family)
+        if stage in SHOWN_IN[family] and isinstance(chosen, str):
+            yield from ((family, method) for method in against.get(chosen, ()))
+
+
+def right_ones(settings: Settings, stage: str) -> Iterator[tuple[str, str]]:
+    """Yield the right methods where ones as printed are chosen at a stage, and other lines against a line."""
     chosen = {
         name: of for name, of in Settings().differences(settings).items() if FAMILIES[name].stage == stage
     }
     for family, method in chosen.items():
         if isinstance(method, str) and method.endswith(AS_PRINTED):
             yield family, method.removesuffix(AS_PRINTED)
-    if chosen.get("visibility") == "painters":
-        yield "visibility", "bsp"
     for family in filter(chosen.__contains__, LINES):
         yield from ((family, method) for method in FAMILIES[family].classical)
 
@@ -71,15 +88,17 @@ def first_difference(
 ) -> dict[str, str | int]:
     """Return family and method in which B differs from a document at first: what is ``shown``, where that differs.
 
-    B can draw the scene, and does something else than the ``trace`` in the stage that is shown, if any method does.
+    B can draw the scene. It is what the lectures compare with what is chosen, or it does something else than the
+    ``trace`` in the stage that is shown, if any method does.
     """
     # The window opens without the studies.
     from core.study.divergence import is_same_schedule, stage_divergence
 
     drawn: dict[str, str | int] = {}
     own = [(name, method) for name, of in FAMILIES.items() if of.stage == stage for method in of.classical]
-    against = counterparts(document.settings, stage)
-    for family, method in (*shown.items(), *against, *FIRST_CHOICES.get(stage, ()), *own, *ANYWHERE):
+    against = tuple(counterparts(document.settings, stage))
+    others = (*right_ones(document.settings, stage), *FIRST_CHOICES.get(stage, ()), *own, *ANYWHERE)
+    for family, method in (*shown.items(), *against, *others):
         settings = replace(document.settings, **{family: method})  # type: ignore[arg-type]
         other = replace(document, settings=settings)
         if settings == document.settings or no_effect(settings, family, document.scene):
@@ -92,7 +111,8 @@ def first_difference(
             continue
         by_outcome = stage in BY_OUTCOME
         has_other_steps = not by_outcome and not is_same_schedule(mine, theirs)
-        if has_other_steps or stage_divergence(mine, theirs, by_outcome) is not None:
+        is_compared = (family, method) in against
+        if is_compared or has_other_steps or stage_divergence(mine, theirs, by_outcome) is not None:
             return {family: method}
         drawn = drawn or {family: method}
     return drawn

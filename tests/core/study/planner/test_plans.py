@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 from core.methods import table
+from core.pipeline import render
 from core.records.arrays import Floats
 from core.scene import ClipScene, Texture
 from core.settings import Settings
 from core.stages.closed_meshes import is_closed
+from core.stages.object_tree import object_tree
 from core.study import Plan, Tolerance, look_at, plan, reference_settings
 from core.study.planner.findings import sagitta, tessellations
 from core.study.planner.measuring import check_plan, measure_plan
@@ -17,6 +19,7 @@ from core.study.planner.planning import CHEAPER
 from core.study.planner.records import PHRASES, figure
 from core.study.planner.trials import Costs, difference, shown
 from core.study.workloads import sphere_mesh, sphere_scene, textured_quad
+from core.transform.vertex_stage import transform_vertices
 
 
 class WithoutMultisampling(Costs):
@@ -165,3 +168,16 @@ def test_figures_have_three_digits_and_no_exponent() -> None:
     assert [figure(value) for value in (5186.0, 0.8234, 2e-5, 0.0, 1e6)] == [
         *("5,190", "0.823", "0.001", "0", "1,000,000")
     ]
+
+
+def test_a_plan_says_what_rays_in_a_tree_and_scan_lines_would_ask() -> None:
+    scene = sphere_scene(6, 24)
+    found = plan(scene, Tolerance(), costs=Costs())
+    said = next(each.reason for each in found.decisions if each.setting == "visibility")
+    grown = object_tree(scene, transform_vertices(scene), Settings(visibility="ray-casting-tree"))
+    assert grown is not None
+    deepest = int(grown.tree.depth.max())
+    assert f"would ask at most {1 + 2 * deepest} boxes and 8 triangles." in said
+    covered = render(scene, Settings(cull="none")).cover_count
+    text = f"where triangles overlap: in {(covered > 1).sum():,} of {(covered > 0).sum():,} pixels"
+    assert text in said

@@ -99,6 +99,22 @@ def test_b_stands_against_the_method_that_a_scene_of_lines_is_about(
     assert first_difference(document, document.make_trace(document.settings), "raster", {}) == expected
 
 
+@pytest.mark.parametrize(
+    ("name", "stage", "chosen", "expected"),
+    [
+        ("four-layers", "shade", {}, {"depth_test_time": "late"}),
+        ("circle-of-bars", "depth", {}, {"visibility": "bsp"}),
+        ("intersecting", "depth", {"visibility": "scan-line"}, {"visibility": "z-buffer"}),
+    ],
+)
+def test_b_is_what_the_lectures_compare_a_method_with(
+    name: str, stage: str, chosen: dict[str, str], expected: dict[str, str]
+) -> None:
+    document = open_any(name).document
+    document = replace(document, settings=replace(document.settings, **chosen))
+    assert first_difference(document, document.make_trace(), stage, {}) == expected
+
+
 def test_two_depth_formats_are_compared_in_what_both_hold(window: MainWindow) -> None:
     window.session.open(open_document(make_scene("z-fighting"), "Plates"))
     window.session.set_stage("depth")
