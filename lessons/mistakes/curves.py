@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
-from math import isqrt
+from math import ceil, isqrt
 
 from lessons.mistakes.twin import WrongRule
 
@@ -38,33 +38,42 @@ def first_level(points: Points, t: Fraction) -> tuple[Fraction, ...]:
     return curve_point(points[:2], t)
 
 
-def least_segments(deviation: Fraction, tolerance: Fraction) -> int:
-    """Return the least n for which deviation / n^2 is within the tolerance."""
+def least_segments(deviation: Fraction, tolerance: Fraction, is_closed: bool) -> tuple[int, int]:
+    """Return the least n with deviation / n^2 within the tolerance, and how many different ends n segments have."""
     ratio = deviation / tolerance
     n = isqrt(ratio.numerator // ratio.denominator)
-    return max(n if n * n >= ratio else n + 1, 1)
+    n = max(n if n * n >= ratio else n + 1, 1)
+    return n, n + (not is_closed)
 
 
-def falls_with_n(deviation: Fraction, tolerance: Fraction) -> int:
+def falls_with_n(deviation: Fraction, tolerance: Fraction, is_closed: bool) -> tuple[int, int]:
     """Divide the deviation by n alone."""
+    n = max(ceil(deviation / tolerance), 1)
+    return n, n + (not is_closed)
+
+
+def rounded_down(deviation: Fraction, tolerance: Fraction, is_closed: bool) -> tuple[int, int]:
+    """Round the square root down."""
     ratio = deviation / tolerance
-    return max(-(-ratio.numerator // ratio.denominator), 1)
+    n = max(isqrt(ratio.numerator // ratio.denominator), 1)
+    return n, n + (not is_closed)
 
 
-def points_counted(deviation: Fraction, tolerance: Fraction) -> int:
-    """Count the ends of the segments."""
-    return least_segments(deviation, tolerance) + 1
+def as_many_ends(deviation: Fraction, tolerance: Fraction, is_closed: bool) -> tuple[int, int]:
+    """Count as many ends as segments."""
+    n, _ = least_segments(deviation, tolerance, is_closed)
+    return n, n
 
 
-def cut_then_divided(places: Sequence[int], w: Sequence[int], t: Fraction) -> Fraction:
+def cut_then_divided(places: Sequence[int], w: Sequence[int], t: Fraction) -> tuple[Fraction]:
     """Return where a curve's point at t lies in the window: mixed in clip space, and then divided by w."""
     x = mixed([Fraction(p * k) for p, k in zip(places, w, strict=True)], t)
-    return x / mixed([Fraction(k) for k in w], t)
+    return (x / mixed([Fraction(k) for k in w], t),)
 
 
-def divided_then_cut(places: Sequence[int], w: Sequence[int], t: Fraction) -> Fraction:
+def divided_then_cut(places: Sequence[int], w: Sequence[int], t: Fraction) -> tuple[Fraction]:
     """Mix the control points after their division."""
-    return mixed([Fraction(p) for p in places], t)
+    return (mixed([Fraction(p) for p in places], t),)
 
 
 _HALF = Fraction(1, 2)
@@ -99,16 +108,24 @@ RULES = (
         "The deviation was divided by n. With n equal steps it is n² times as small.",
         least_segments,
         falls_with_n,
-        (Fraction(16), Fraction(1)),
-        (Fraction(1), Fraction(1)),
+        (Fraction(16), Fraction(1), False),
+        (Fraction(1), Fraction(1), False),
     ),
     WrongRule(
-        "points-for-segments",
-        "The points were counted. A strip of n segments has n + 1 ends.",
+        "segments-rounded-down",
+        "The square root was rounded down, which leaves more than the tolerance. Round it up.",
         least_segments,
-        points_counted,
-        (Fraction(16), Fraction(1)),
-        (),
+        rounded_down,
+        (Fraction(15), Fraction(1), False),
+        (Fraction(16), Fraction(1), False),
+    ),
+    WrongRule(
+        "as-many-ends-as-segments",
+        "As many ends as segments were counted. That holds of a closed line; n segments of an open one have n + 1.",
+        least_segments,
+        as_many_ends,
+        (Fraction(16), Fraction(1), False),
+        (Fraction(16), Fraction(1), True),
     ),
     WrongRule(
         "divided-before-cutting",

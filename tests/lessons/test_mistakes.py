@@ -8,6 +8,7 @@ from lessons.mistakes import (
     boxes,
     clipping,
     coverage,
+    curves,
     depths,
     fragments,
     planes,
@@ -46,7 +47,7 @@ def test_a_wrong_formula_shows_in_one_place_and_hides_in_another(rule: WrongRule
 
 def test_names_are_unique_and_unknown_ones_refused() -> None:
     runs = {boxes, clipping, coverage, depths, planes, scan_conversion, fragments, lines, textures, shadows}
-    formulas = {boxes, cutting, depths, planes, scan_conversion, scan_lines, shadows, smoothing}
+    formulas = {boxes, curves, cutting, depths, planes, scan_conversion, scan_lines, shadows, smoothing}
     formulas |= {surfaces, textures, transforms, visible_work, presenting}
     count = sum(len(module.TWINS) for module in runs) + sum(len(module.RULES) for module in formulas)
     both = SHELF.keys() & RULES.keys()

@@ -25,7 +25,8 @@ def draw_point(draws: Draws) -> Draft:
         Hint: Mix each two neighbours: 1 − t of the first and t of the second.
         Hint: {count} points give {count - 1} mixtures. Mix these in the same way, level by level, until one point is
         left.
-        Hint: There are {levels} levels here, and the first mixture of the first is a point between P0 and P1."""
+        Hint: There are {levels} levels here. The first begins with the mixture of {points[0]} and {points[1]}, with the
+        shares {1 - t} and {t}."""
     return by_rule(
         asked,
         given,
@@ -39,14 +40,20 @@ def draw_point(draws: Draws) -> Draft:
 def draw_count(draws: Draws) -> Draft:
     """The fewest equal steps that keep a curve within a tolerance."""
     tolerance = draws.item((Fraction(1, 4), Fraction(1, 2), Fraction(1), Fraction(2)))
-    deviation = Fraction(draws.whole(3, 60))
+    deviation, is_closed = Fraction(draws.whole(3, 60)), draws.whole(0, 3) == 0
     reject(deviation / tolerance <= 2)
-    given = f"With one segment the curve is at most {deviation} pixels away.\nTolerance: {tolerance} pixel"
-    asked = """How many equal steps of t are the fewest that surely keep the curve within the tolerance?
+    line = "closed: it ends where it begins" if is_closed else "open: it does not end where it begins"
+    given = f"""With one segment the curve is at most {deviation} pixels away.
+Tolerance: {tolerance} pixel
+The curve is {line}."""
+    asked = f"""How many equal steps of t are the fewest that surely keep the curve within the tolerance, and how many
+        different ends do these segments have?
         Hint: With n equal steps, each piece is n times as short, and the deviation n² times as small.
-        Hint: Divide what one segment deviates by the tolerance: n² is at least so much.
-        Hint: A strip of n segments has n + 1 ends. The segments are asked for."""
-    return by_rule(asked, given, (deviation, tolerance), ("deviation-falls-with-n", "points-for-segments"))
+        Hint: n² is at least what one segment deviates, divided by the tolerance. An open line has one end more than
+        it has segments.
+        Hint: Here n is the square root of {deviation} / ({tolerance}), rounded up."""
+    wrong = ("deviation-falls-with-n", "segments-rounded-down", "as-many-ends-as-segments")
+    return by_rule(asked, given, (deviation, tolerance, is_closed), wrong, ("segments", "ends"))
 
 
 @template("curve-in-perspective", 1, "A curve in perspective", "transform", 3)
@@ -55,13 +62,13 @@ def draw_depth(draws: Draws) -> Draft:
     places = tuple(draws.whole(0, 12) for _ in range(3))
     w = (1, draws.item((1, 2)), draws.item((3, 4, 5)))
     t = Fraction(1, 2)
-    found = cut_then_divided(places, w, t)
+    (found,) = cut_then_divided(places, w, t)
     reject(len(set(places)) < 3 or found.denominator > 12)
     given = listed("P{}: window x = {}, w = {}", range(3), places, w)
-    asked = """At which window x lies the point of this curve at t = 1/2? The curve is cut in clip space, before
+    asked = f"""At which window x lies the point of this curve at t = 1/2? The curve is cut in clip space, before
         anything is divided by w.
         Hint: In clip space each control point has x w and w. Both are mixed.
         Hint: At t = 1/2 a curve of three points is a quarter of the first, a half of the second and a quarter of the
         third.
-        Hint: Divide the mixture of x w by that of w, at the end."""
+        Hint: Divide the mixture of x w by that of w, which mixes {w[0]}, {w[1]} and {w[2]}."""
     return by_rule(asked, given, (places, w, t), ("divided-before-cutting",), ("x",))
