@@ -160,10 +160,15 @@ class ResolvedSettings:
         return method if method.traits and "shadow" in self.method("shading").takes else None
 
     @cached_property
-    def tests_early(self) -> bool:
-        """Whether depth is tested before a fragment is shaded: the method of visibility takes the time of the test."""
-        is_early: bool = self.method("depth_test_time").function()
-        return is_early and "depth_test_time" in self.method("visibility").takes
+    def shades(self) -> str:
+        """Which fragments are shaded, see `core.depth.early_depth`: all where visibility tests no depth in a buffer.
+
+        What is mixed with others is not left out, though its depth does not stay.
+        """
+        which: str = self.method("depth_test_time").function()
+        if "depth_test_time" not in self.method("visibility").takes:
+            return "all"
+        return "passing" if which == "left" and self.is_mixed else which
 
     @cached_property
     def depth_format(self) -> "DepthFormat":

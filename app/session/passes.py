@@ -10,7 +10,7 @@ from app.session.session import Session
 from core.records.passes import PlannedPass
 from core.stages.passes import planned_passes
 
-NO_PASS = "This picture needs no pass. Choose a shadow map in a scene with a directional light."
+NO_PASS = "This picture needs no pass: choose a shadow map, or a depth test with a prepass."
 
 
 def passes_of(document: Document) -> tuple[PlannedPass, ...]:
@@ -33,8 +33,8 @@ def looked_up_texels(moment: Moment, row: int) -> list[Pixel]:
     return [(int(column), int(line)) for column, line in texels[is_inside]]
 
 
-def open_pass(session: Session) -> None:
-    """Open the pass of the picture at its depth buffer, with the texel pinned that the pixel looks up.
+def open_pass(session: Session, number: int = 0) -> None:
+    """Open a pass of the picture at its depth buffer, with the texel pinned that the pixel looks up, or its own place.
 
     Undo leads back. ValueError where there is none.
     """
@@ -42,11 +42,13 @@ def open_pass(session: Session) -> None:
     planned = passes_of(moment.document)
     if not planned:
         raise ValueError(NO_PASS)
-    texels = looked_up_texels(moment, shaded_row(moment))
-    session.open(pass_document(planned[0]))
+    chosen, pixel = planned[number], moment.pin
+    if chosen.name == "shadow-map":
+        pixel = next(iter(looked_up_texels(moment, shaded_row(moment))), None)
+    session.open(pass_document(chosen))
     session.set_stage("depth")
-    if texels and session.moment.has_pixel(texels[0]):
-        session.set_pin(texels[0])
+    if pixel is not None and session.moment.has_pixel(pixel):
+        session.set_pin(pixel)
 
 
 def shaded_row(moment: Moment) -> int:

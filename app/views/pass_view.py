@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QMenu, QWidget
 from app.session.moment import Moment
 from app.session.passes import looked_up_texels, open_pass, passes_of, shaded_row
 from app.views.companions import Companion
+from core.records.passes import PlannedPass
 from core.stages.passes import drawn_depth
 from widgets.basics.controls import column_layout, text_label
 from widgets.grid.layers import GridBuffer
@@ -36,7 +37,7 @@ class PassBeside(Companion):
 
     def is_wanted(self, moment: Moment) -> bool:
         """Return whether the picture looks into a map."""
-        return bool(passes_of(moment.document))
+        return _map_of(moment) is not None
 
     def made_from(self) -> object:
         """Return trace and the row that looks into the map."""
@@ -44,7 +45,8 @@ class PassBeside(Companion):
 
     def draw(self) -> None:
         """Show the map, with the texels marked."""
-        planned = passes_of(self.moment.document)[0]
+        planned = _map_of(self.moment)
+        assert planned is not None
         width, height = planned.scene.size
         self._title.setText(f"{planned.title}: depth, {width} × {height} texels")
         self.grid.show_buffer(GridBuffer("shadow map", drawn_depth(planned), range=(0.0, 1.0), title="depth"))
@@ -58,3 +60,8 @@ class PassBeside(Companion):
     @Slot()
     def _open(self) -> None:
         open_pass(self.session)
+
+
+def _map_of(moment: Moment) -> PlannedPass | None:
+    """Return the pass of the shadow map."""
+    return next((planned for planned in passes_of(moment.document) if planned.name == "shadow-map"), None)

@@ -1,8 +1,9 @@
-"""When depth is tested: after a fragment is shaded, or before, so that what is hidden already is not shaded.
+"""When depth is tested: after a fragment is shaded, or before, so that what is hidden already is not shaded; or twice.
 
 A depth test does not read the fragment's colour, so it decides alike at both times, and the picture is the same. Early
 shades a fragment only where it passes: at a pixel as often as its nearest depth so far falls. Of n layers in random
-order that is 1 + 1/2 + ... + 1/n times on average: n from far to near, once from near to far.
+order that is 1 + 1/2 + ... + 1/n times on average: n from far to near, once from near to far. A prepass draws all
+depths first, and then all triangles again: a fragment is shaded if it has the depth that is left, once at every pixel.
 
 References
 ----------
@@ -17,6 +18,8 @@ from typing import TypeVar
 from core.methods import method
 
 Color = TypeVar("Color")
+ALL, PASSING, LEFT = "all", "passing", "left"
+"""Which fragments are shaded: all, those that pass the depth test, those whose depth is left in the end."""
 
 
 def shade_then_test(passes: Callable[[], bool], shade: Callable[[], Color]) -> Color | None:
@@ -30,6 +33,18 @@ def shade_then_test(passes: Callable[[], bool], shade: Callable[[], Color]) -> C
 def shade_if_passed(passes: Callable[[], bool], shade: Callable[[], Color]) -> Color | None:
     """Listing of one fragment whose depth is tested early; ``None``: it is not shaded."""
     if not passes():  #: test
+        return None
+    return shade()
+
+
+def shade_if_left(
+    depth: float, left: float, is_shaded: Callable[[], bool], shade: Callable[[], Color]
+) -> Color | None:
+    """Listing of one fragment after a prepass, which has left a depth; ``None``: it is not shaded.
+
+    Of fragments with equal depths the first is shaded, as the late test has it: "equal" alone would let all pass.
+    """
+    if depth != left or is_shaded():  #: test
         return None
     return shade()
 
@@ -48,9 +63,9 @@ def mean_shaded(layers: int) -> Fraction:
     breaks_where="nowhere, but hidden fragments are shaded for nothing",
     listing=shade_then_test,
 )
-def late() -> bool:
-    """Shade every fragment: return whether depth is tested before."""
-    return False
+def late() -> str:
+    """Shade every fragment: return which are shaded."""
+    return ALL
 
 
 @method(
@@ -63,6 +78,21 @@ def late() -> bool:
     "it saves nothing",
     listing=shade_if_passed,
 )
-def early() -> bool:
-    """Shade what passes: return whether depth is tested before."""
-    return True
+def early() -> str:
+    """Shade what passes: return which are shaded."""
+    return PASSING
+
+
+@method(
+    "depth_test_time",
+    "prepass",
+    "Prepass: depth alone first",
+    source="OpenGL 4.6, depth test with EQUAL after a pass that writes depth alone",
+    exact_for="opaque fragments: each covered pixel is shaded once, whatever the order; the picture is the late test's",
+    breaks_where="transforms, coverage and depth test are done twice; blending needs hidden fragments, and is tested "
+    'early; followed by "less" instead of "equal" nothing would be drawn',
+    listing=shade_if_left,
+)
+def prepass() -> str:
+    """Shade what the depth buffer is left with: return which are shaded."""
+    return LEFT

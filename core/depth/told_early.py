@@ -15,6 +15,8 @@ def skipped(step: StepValues) -> Said:
     stored, before = step.number("stored"), step.number("before")
     if not step.flag("is_in_range"):
         return f"{step.fragment_name}: out of depth range, so it is not shaded."
+    if step.flag("is_prepass"):
+        return _not_left(step, stored, before)
     if step.flag("casts_rays"):
         return f"{text}; its ray has met something as near or nearer before."
     if math.isnan(stored) or math.isnan(before):
@@ -28,10 +30,26 @@ def skipped(step: StepValues) -> Said:
     )
 
 
+def _not_left(step: StepValues, stored: float, left: float) -> Said:
+    """Return why a fragment is not shaded after a prepass."""
+    text = f"{step.fragment_name}: not shaded, since the prepass"
+    if math.isnan(stored) or math.isnan(left):
+        return f"{text} has left the depth of another fragment."
+    if stored == left:
+        return f"{text} has left an equal depth, of a fragment that comes first."
+    new, old = pair_text(stored, left)
+    test = named(below("d", "new"), stored).compared("=", named(below("d", "left"), left))
+    return f"{text} has left the depth {old}, not its {new}.", formula_of(
+        concludes("shaded", "not shaded", test)
+    )
+
+
 shows(
     "shade.skipped",
     {
         "stored": VariableText("d new", "What the depth format stores of the fragment."),
-        "before": VariableText("d buffer", "What the depth buffer held."),
+        "before": VariableText(
+            "d buffer", "What the depth buffer held; after a prepass, the depth that is left."
+        ),
     },
 )

@@ -4,9 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.depth.early_depth import shade_if_passed
+from core.depth.early_depth import LEFT, shade_if_left, shade_if_passed
 from core.records.listing import Operation, listing
 from core.records.steps import Steps
+from core.stages.hidden_surfaces import shades
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
 
@@ -16,7 +17,7 @@ SKIPPED_OPERATIONS = (Operation("skip", "test", (), ("stored", "before")),)
 
 
 def without_hidden(source: TraceSource, found: StageTrace) -> StageTrace:
-    """Return the rows of shading with one operation alone for each fragment that the early test has dropped.
+    """Return the rows of shading with one operation alone for each fragment that is not shaded.
 
     They write no buffer. The buffer ``times shaded`` counts those that are shaded.
     """
@@ -33,9 +34,14 @@ def without_hidden(source: TraceSource, found: StageTrace) -> StageTrace:
     # An edited test, and one for every sample, compare something else than these two.
     has_own_test = source.is_tested_alone and source.depth_format.test_listing is None
     is_compared = ~shaded & keeps & has_own_test
+    before, is_prepass = source.depth_tests.before, shades(source.scene, source.geometry) == LEFT
+    if is_prepass:
+        # That of a sample is not looked up: its sentence does without.
+        left = source.picture.depth.reshape(-1).take(place) if type(source) is TraceSource else np.nan
+        before = np.where(source.geometry.drawing.decides is None, left, np.nan)
     columns = {
         "stored": np.where(is_compared, stored, np.nan),
-        "before": np.where(is_compared, source.depth_tests.before, np.nan),
+        "before": np.where(is_compared, before, np.nan),
         "is_in_range": keeps,
     }
     steps = Steps(
@@ -49,7 +55,7 @@ def without_hidden(source: TraceSource, found: StageTrace) -> StageTrace:
         found,
         steps=steps,
         columns={**found.columns, **columns},
-        listings={**found.listings, SKIPPED: listing(shade_if_passed)},
+        listings={**found.listings, SKIPPED: listing(shade_if_left if is_prepass else shade_if_passed)},
         marks={
             **{name: flags & shaded for name, flags in found.marks.items()},
             "depth-failed": ~shaded,
@@ -57,6 +63,7 @@ def without_hidden(source: TraceSource, found: StageTrace) -> StageTrace:
         buffers=(*(_of_shaded(track, shaded) for track in found.buffers), counted),
         constants={
             **found.constants,
+            "is_prepass": is_prepass,
             "casts_rays": source.geometry.drawing.decides is not None,
             "larger_is_nearer": source.depth_format.larger_is_nearer,
         },

@@ -30,7 +30,7 @@ from core.pixel_history.fragments import (
 )
 from core.records.arrays import Integers
 from core.resolved import resolve
-from core.stages.hidden_surfaces import tests_early
+from core.stages.hidden_surfaces import shades
 
 # The first line of a pixel's history: what is seen here and why, or what became of one triangle.
 
@@ -183,7 +183,9 @@ def _fragment_events(
     hidden_by = overwriters(fragments, blend)
     corner_count = candidates.scene.corner_count
     # Of several samples, a fragment that is hidden at this one may be shaded for another.
-    is_early = candidates.colored_by is None and tests_early(candidates.scene, candidates.geometry)
+    shaded_ones = (
+        "all" if candidates.colored_by is not None else shades(candidates.scene, candidates.geometry)
+    )
     events = []
     for k, (which, passage) in enumerate(zip(candidates.covering.tolist(), passages, strict=True)):
         raster = []
@@ -196,11 +198,18 @@ def _fragment_events(
             chain.append(Link("interpolate", "weights", _weights(candidates, fragments, k)))
         share = None if fragments.light_share is None else float(fragments.light_share[k])
         shaded = Link("shade", "color", {"color": fragments.color[k], "light_share": share})
-        if is_early and not passage.passes:
+        is_left = passage.passes and hidden_by[k] < 0
+        if shaded_ones != "all" and not passage.passes:
             shaded = Link("shade", "not-shaded", {})
+        elif shaded_ones == "left" and not is_left:
+            shaded = Link("shade", "not-left", {})
         chain += [shaded, passage.depth_link]
         if passage.passes:
-            values = {"by": hidden_by[k], "alpha": float(fragments.source[k, 3])}
+            values = {
+                "by": hidden_by[k],
+                "alpha": float(fragments.source[k, 3]),
+                "is_depth": shaded.key == "not-left",
+            }
             key = "overwritten" if hidden_by[k] >= 0 else "written"
             if key == "written" and blend_traits(blend).mixes:
                 key = "blended"

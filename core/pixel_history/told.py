@@ -37,7 +37,9 @@ def event_reason(event: PixelEvent, drawn: Nouns = TRIANGLES) -> str:
     links = [event.reason]
     if event.kind == "fragment":
         stages = ("raster", "interpolate", "depth", "blend")
-        links = [link for link in event.chain if link.stage in stages or link.key == "not-shaded"]
+        links = [
+            link for link in event.chain if link.stage in stages or link.key in ("not-shaded", "not-left")
+        ]
     first = link_sentence(links[0], drawn)
     clip = event.link("clip")
     if clip is not None and clip is not event.reason and clip.key == "clipped":
@@ -254,7 +256,8 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     **COVERAGE,
     ("interpolate", "weights"): _weights,
     ("shade", "color"): _shaded,
-    ("shade", "not-shaded"): "not shaded, as it failed the early depth test",
+    ("shade", "not-shaded"): "not shaded, as it failed the depth test before",
+    ("shade", "not-left"): "not shaded, as the prepass left another depth",
     ("depth", "passed"): lambda v: f"passed the depth test: {_compared(v, 'against')}",
     ("depth", "failed"): lambda v: f"failed the depth test: {_compared(v, 'is not nearer than')}",
     ("depth", "tied"): lambda v: (
@@ -287,7 +290,9 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     ("depth", "undefined"): "its depth is not a number",
     ("depth", "discarded"): "discarded by the fragment shader",
     ("blend", "written"): "written and visible",
-    ("blend", "overwritten"): lambda v: f"written, later overwritten by {_name(v, 'by')}",
+    ("blend", "overwritten"): lambda v: (
+        f"{'its depth was ' if v['is_depth'] else ''}written, later overwritten by {_name(v, 'by')}"
+    ),
     ("blend", "blended"): lambda v: f"blended with alpha {exact_text(v['alpha'])}",
 }
 """Stage and key to the sentence, without capital and full stop."""

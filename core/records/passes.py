@@ -7,23 +7,25 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from core.scene import Scene
+    from core.scene import AnyScene
     from core.settings import Settings
 
-PASS_FAMILIES = ("shadow",)
-"""Families of methods that ask for passes; each calls its method without one ``none``."""
+ASKS_FOR_PASSES = {"shadow": ("map", "map-average"), "depth_test_time": ("prepass",)}
+"""By family, the methods that ask for a pass."""
 
 
 @dataclass(frozen=True, eq=False)
 class PlannedPass:
     """What is drawn first. ValueError where it needs a pass itself: the first picture would never come."""
 
+    name: str
+    """What it is for: ``shadow-map`` or ``prepass``."""
     title: str
     """What it shows, as ``What light 0 sees``."""
-    scene: "Scene"
+    scene: "AnyScene"
     settings: "Settings"
 
     def __post_init__(self) -> None:
-        for family in PASS_FAMILIES:
-            if (method := getattr(self.settings, family)) != "none":
+        for family, asking in ASKS_FOR_PASSES.items():
+            if (method := getattr(self.settings, family)) in asking:
                 raise ValueError(f"a pass must need no pass itself, got one with {family} {method}")

@@ -12,7 +12,7 @@ from core.scene import Camera, DirectionalLight, Mesh, Scene
 from core.settings import Settings
 from core.shading.shading import outward_normals
 from core.shading.shadows import BIAS_STEPS
-from core.stages.passes import lamp_of, planned_passes
+from core.stages.passes import lamp_of, map_camera, planned_passes
 from core.study.family import Assignment, StudyFamily
 from core.study.frame_task import FrameTask, color_pictures, per_million
 from core.study.record import Axis, ErrorMeasure, Judgement, Outcome, Pictures, Verdict, WorkKind
@@ -50,7 +50,7 @@ def needed_biases(scene: Scene, settings: Settings) -> tuple[Floats, Floats]:
     with np.errstate(divide="ignore", invalid="ignore"):
         right, above = np.cross(up, normal[faces]), np.cross(across, normal[faces])
         slope = np.abs((right @ along) / (right @ across)) + np.abs((above @ along) / (above @ up))
-    camera = planned.scene.camera
+    camera = map_camera(planned)
     texel = camera.view_height / planned.scene.size[0] / (camera.far - camera.near)
     texels = 2.0 if settings.shadow == "map-average" else 1.0
     return BIAS_STEPS * texels * slope / 2 / texel, area[faces] / max(float(area[faces].sum()), 1e-300)

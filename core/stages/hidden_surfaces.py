@@ -104,9 +104,9 @@ def stack_in_turn(pixel: Integers, passes: Flags, drawn: Integers) -> PixelStack
     return replace(stacks, fragment=turn.take(stacks.fragment))
 
 
-def tests_early(scene: AnyScene, geometry: Geometry) -> bool:
-    """Return whether a fragment is shaded only if it passes the depth test: never where a shader might discard it."""
-    return resolve(geometry.settings).tests_early and scene.program is None
+def shades(scene: AnyScene, geometry: Geometry) -> str:
+    """Return which fragments are shaded, see `core.depth.early_depth`: all where a shader might discard them."""
+    return "all" if scene.program is not None else resolve(geometry.settings).shades
 
 
 @dataclass(frozen=True, eq=False)

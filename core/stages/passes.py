@@ -1,10 +1,12 @@
 """Which passes a scene needs, drawn and kept: scenes never change, so neither do their passes."""
 
+from dataclasses import replace
 from functools import lru_cache
 from importlib import import_module
 
 import numpy as np
 
+from core.depth.early_depth import LEFT
 from core.records.arrays import Floats, read_only
 from core.records.passes import PlannedPass
 from core.resolved import resolve
@@ -21,14 +23,22 @@ ROOM = 1 / 16
 
 def planned_passes(scene: AnyScene, settings: Settings) -> tuple[PlannedPass, ...]:
     """Return what is drawn before the picture, in this order; empty for most scenes."""
-    if not isinstance(scene, Scene) or scene.program is not None:
+    if scene.program is not None:
         return ()
-    shadow = resolve(settings).shadow
-    if shadow is None or shadow.traits != "map" or scene.casting_light < 0:
-        return ()
-    return (
-        shadow_pass(scene.meshes, scene.lights[scene.casting_light], scene.casting_light, settings.map_size),
-    )
+    found, shadow = [], resolve(settings).shadow
+    if (
+        isinstance(scene, Scene)
+        and shadow is not None
+        and shadow.traits == "map"
+        and scene.casting_light >= 0
+    ):
+        light = scene.lights[scene.casting_light]
+        assert isinstance(light, DirectionalLight)
+        found.append(shadow_pass(scene.meshes, light, scene.casting_light, settings.map_size))
+    if resolve(settings).shades == LEFT:
+        plain = replace(settings, shading="unlit", depth_test_time="late")
+        found.append(PlannedPass("prepass", "Depth alone", scene, plain))
+    return tuple(found)
 
 
 def shadow_tests(scene: Scene, settings: Settings, position: Floats) -> MapTests | RayHits | None:
@@ -47,7 +57,7 @@ def lamp_of(scene: Scene, settings: Settings) -> Lamp:
     light, looks = scene.lights[number], shadow.traits == "map"
     assert isinstance(light, DirectionalLight)
     planned = shadow_pass(scene.meshes, light, number, settings.map_size if looks else 1)
-    camera = planned.scene.camera
+    camera = map_camera(planned)
     in_texels = camera.view_height / planned.scene.size[0] / (camera.far - camera.near)
     return Lamp(
         number,
@@ -65,7 +75,7 @@ def shadow_pass(meshes: tuple[Mesh, ...], light: DirectionalLight, number: int, 
     Half a texel is left free around them.
     """
     sides = Scene(meshes, light_camera(meshes, light, size), (), (size, size))
-    return PlannedPass(f"What light {number} sees", sides, Settings(shading="unlit"))
+    return PlannedPass("shadow-map", f"What light {number} sees", sides, Settings(shading="unlit"))
 
 
 def light_camera(meshes: tuple[Mesh, ...], light: DirectionalLight, size: int) -> Camera:
@@ -86,10 +96,16 @@ def light_camera(meshes: tuple[Mesh, ...], light: DirectionalLight, size: int) -
     return Camera(eye, eye + unit * far, up, "orthographic", view_height=side, near=room / 2, far=far)
 
 
+def map_camera(planned: PlannedPass) -> Camera:
+    """Return the camera of a pass of meshes."""
+    assert isinstance(planned.scene, Scene)
+    return planned.scene.camera
+
+
 @lru_cache(maxsize=8)
 def map_matrix(planned: PlannedPass) -> Floats:
     """Return the (3, 4) matrix from world space to column, row and depth of a pass of an orthographic camera."""
-    camera, (width, height) = planned.scene.camera, planned.scene.size
+    camera, (width, height) = map_camera(planned), planned.scene.size
     whole = viewport(width, height) @ projection(camera, width / height) @ world_to_camera(camera)
     return read_only(whole[:3])
 
@@ -106,6 +122,7 @@ def drawn_depth(planned: PlannedPass) -> Floats:
 @lru_cache(maxsize=4)
 def triangles_in_map(planned: PlannedPass) -> Floats:
     """Return the corners (T, 3, 3) of all triangles in the space of a pass of an orthographic camera."""
+    assert isinstance(planned.scene, Scene)
     world, matrix = place_meshes(planned.scene.meshes), map_matrix(planned)
     places = world.world[:, :3] @ matrix[:, :3].T + matrix[:, 3]
     return read_only(places[world.corners])

@@ -7,6 +7,7 @@ lie at the pixels' centres; colours are those of the unmoved triangles. Supersam
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.antialiasing.resolve import at_sample, finer_raster, finer_scene, finer_settings, in_squares
 from core.antialiasing.sampling import ROTATED_GRID
@@ -50,6 +51,15 @@ class SampleSource(TraceSource):
             cover_count=samples.cover_count[self.sample],
             samples=None,
         )
+
+    @property
+    def seen(self) -> NDArray[np.int32]:
+        """(H, W) int32, the triangle that the sample shows in the end, -1: none."""
+        assert self.whole is not None
+        samples = self.whole.picture.samples
+        assert samples is not None
+        shown: NDArray[np.int32] = samples.primitive[self.sample]
+        return shown
 
     @cached_property
     def interpolated(self) -> tuple[Floats, Floats]:
@@ -96,12 +106,20 @@ class CenterSource(TraceSource):
     @property
     def _passed(self) -> Flags:
         """(F,) bool, the fragments of which some sample passes."""
+        return self._of_some_sample([source.depth_tests.passes for source in self.samples])
+
+    @property
+    def _left(self) -> Flags:
+        """(F,) bool, the fragments of which some sample's depth is left in the end."""
+        return self._of_some_sample([source.shaded for source in self.samples])
+
+    def _of_some_sample(self, chosen: list[Flags]) -> Flags:
         pixels = self.raster.shape[0] * self.raster.shape[1]
-        passed = [
-            (owner_of(source.fragments) * pixels + source.place)[source.depth_tests.passes]
-            for source in self.samples
+        found = [
+            (owner_of(source.fragments) * pixels + source.place)[flags]
+            for source, flags in zip(self.samples, chosen, strict=True)
         ]
-        return np.isin(owner_of(self.fragments) * pixels + self.place, np.concatenate(passed))
+        return np.isin(owner_of(self.fragments) * pixels + self.place, np.concatenate(found))
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,6 +158,14 @@ class FinerSource(TraceSource):
             cover_count=self._laid_out(samples.cover_count),
             samples=None,
         )
+
+    @property
+    def seen(self) -> NDArray[np.int32]:
+        """(n H, n W) int32, the triangle that each sample shows in the end, -1: none."""
+        assert self.whole is not None
+        samples = self.whole.picture.samples
+        assert samples is not None
+        return self._laid_out(samples.primitive)
 
     def _laid_out(self, by_place: np.ndarray) -> np.ndarray:
         """Return samples (S, H, W, ...) as a picture (n H, n W, ...)."""

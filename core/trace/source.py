@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.coverage.active_edges import fill_rings
 from core.coverage.binning import bound
@@ -31,7 +32,7 @@ from core.stages.fragments import (
     surface_of,
     texture_slopes,
 )
-from core.stages.hidden_surfaces import StartBuffers, run_visibility_tests, tests_early
+from core.stages.hidden_surfaces import StartBuffers, run_visibility_tests, shades
 from core.stages.needs import check_edits
 from core.stages.vertices import Before, Geometry, drawing_order, process_geometry
 from core.visibility.exact_case import ExactTests
@@ -254,14 +255,34 @@ class TraceSource:
 
     @cached_property
     def shaded(self) -> Flags:
-        """(F,) bool, the fragments that are shaded: all, or those that pass an early depth test."""
-        is_early = tests_early(self.scene, self.geometry)
-        return self._passed if is_early else np.ones(len(self.fragments), bool)
+        """(F,) bool, the fragments that are shaded: all, those that pass an early test, or those left in the end."""
+        which = shades(self.scene, self.geometry)
+        if which == "all":
+            return np.ones(len(self.fragments), bool)
+        return self._passed if which == "passing" else self._left
 
     @property
     def _passed(self) -> Flags:
         """(F,) bool, the fragments that pass the depth test."""
         return self.depth_tests.passes
+
+    @property
+    def _left(self) -> Flags:
+        """(F,) bool, the fragments whose depth is left in the end: of each place the last that passes."""
+        passed, place = np.flatnonzero(self.depth_tests.passes), self.place
+        last = np.full(self.raster.shape[0] * self.raster.shape[1], -1)
+        np.maximum.at(last, place[passed], passed)
+        left = np.zeros(len(place), bool)
+        left[last[last >= 0]] = True
+        if self.triangle is not None and self.before == "earlier":
+            # The prepass has drawn all triangles, not only this one.
+            left &= self.seen.reshape(-1).take(place) == self.triangle
+        return left
+
+    @property
+    def seen(self) -> NDArray[np.int32]:
+        """(H, W) int32, the triangle that is seen in the end, -1: none."""
+        return self.picture.primitive
 
     @cached_property
     def picture(self) -> Frame:

@@ -20,6 +20,11 @@ def shaded_against_previous(depths: Sequence[int]) -> tuple[int]:
     return (1 + sum(new < old for old, new in pairwise(depths)),)
 
 
+def after_prepass(depths: Sequence[int]) -> tuple[int, int]:
+    """Return how many fragments of a pixel are shaded after a prepass, and how many depth tests there are in all."""
+    return min(len(depths), 1), 2 * len(depths)
+
+
 def rays_ask(width: int, height: int, triangles: int) -> tuple[int, int]:
     """Return how often each triangle is asked by the rays of a picture, and the tests of all rays together."""
     return width * height, width * height * triangles
@@ -49,6 +54,22 @@ RULES = (
         lambda depths: (len(depths),),
         ((1, 3, 5),),
         ((5, 3, 1),),
+    ),
+    WrongRule(
+        "prepass-then-less",
+        "After the prepass the test was still for less. No fragment is nearer than the nearest: ask for equal.",
+        after_prepass,
+        lambda depths: (0, 2 * len(depths)),
+        ((5, 3, 1),),
+        ((),),
+    ),
+    WrongRule(
+        "prepass-tested-once",
+        "Each fragment was tested once. A prepass draws all triangles twice, so each is tested twice.",
+        after_prepass,
+        lambda depths: (min(len(depths), 1), len(depths)),
+        ((5, 3, 1),),
+        ((),),
     ),
     WrongRule(
         "ray-loops-swapped",

@@ -125,8 +125,8 @@ class PixelMenu(QObject):
         self._add("Remove the breakpoint" if has_breakpoint else "Breakpoint", "breakpoint")
         self._add("Where does this value come from?", "origin")
         self._add("Ask for this value", "ask")
-        if passes_of(self._session.document):
-            self._add("Open the pass that it looks into", "pass")
+        for number, planned in enumerate(passes_of(self._session.document)):
+            self._add(f"Open the pass “{planned.title}”", f"pass {number}")
         self.menu.addSeparator()
         for stage in STAGES[STAGES.index("raster") :]:
             self._add(f"Step here in {stage_of(stage).short_title}", stage)
@@ -148,9 +148,9 @@ class PixelMenu(QObject):
         elif name == "ask":
             self._session.set_pin(self._pixel)
             self.question_requested.emit()
-        elif name == "pass":
+        elif name.startswith("pass "):
             self._session.set_pin(self._pixel)
-            open_pass(self._session)
+            open_pass(self._session, int(name.removeprefix("pass ")))
         else:
             self._session.set_pin(self._pixel)
             self._stepping.step_into(name, *self._pixel)

@@ -219,7 +219,7 @@ def facts_of(seen: Seen) -> tuple[Fact, ...]:
 
 def _bias(scene: AnyScene, settings: Settings) -> tuple[str, float] | None:
     """Return the shadow bias in words, and the share of the lit surface that it keeps out of its own shadow."""
-    if not planned_passes(scene, settings):
+    if not any(planned.name == "shadow-map" for planned in planned_passes(scene, settings)):
         return None
     from core.shading.measured_shadows import needed_biases  # Only scenes with a map wait for it.
 

@@ -21,6 +21,21 @@ def draw_early_shaded(draws: Draws) -> Draft:
     return by_rule(asked, given, (depths,), mistakes)
 
 
+@template("after-prepass", 1, "Shaded after a prepass", "depth", 2)
+def draw_after_prepass(draws: Draws) -> Draft:
+    """Fragments of one pixel that are shaded after a prepass, and the depth tests that this takes."""
+    depths = tuple(draws.shuffled(range(1, 10))[: draws.whole(4, 7)])
+    asked = f"""Opaque fragments with these depths arrive at one pixel. A prepass draws depth alone. Then all is drawn
+        again, and shaded where the depth equals what is left. How many fragments are shaded, and how many
+        depth tests are there in both passes?
+        Hint: The prepass leaves the smallest depth.
+        Hint: In the second pass only the fragment with that depth passes.
+        Hint: Each of the {len(depths)} fragments is tested in both passes."""
+    given = f"Depths: {', '.join(map(str, depths))}"
+    mistakes = ("prepass-then-less", "prepass-tested-once")
+    return by_rule(asked, given, (depths,), mistakes, ("shaded", "depth tests"))
+
+
 @template("ray-tests", 1, "What rays ask", "depth", 2)
 def draw_ray_tests(draws: Draws) -> Draft:
     """How often rays ask each triangle, and all of them."""

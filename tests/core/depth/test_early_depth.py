@@ -10,11 +10,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render, trace
-from core.depth.early_depth import mean_shaded, shade_if_passed, shade_then_test
+from core.depth.early_depth import mean_shaded, shade_if_left, shade_if_passed, shade_then_test
 from core.depth.measured_early import make_layers
 from core.methods import table
 from core.pixel_history import why
+from core.pixel_history.told import event_reason
 from core.settings import no_effect
+from core.stages.passes import planned_passes
 from core.study.family import Assignment
 from core.trace import TraceSource
 from tests.core.strategies import perspective_triangles
@@ -22,6 +24,7 @@ from tests.core.trace.trace_cases import SCENES
 
 LATE = Settings(cull="none")
 EARLY = replace(LATE, depth_test_time="early")
+PREPASS = replace(LATE, depth_test_time="prepass")
 SIZE = (32, 24)
 CHOICES = [
     ("clip", {}),
@@ -61,6 +64,32 @@ def test_layers_in_every_order_shade_the_harmonic_number_on_average(count) -> No
     assert Fraction(sum(each), len(orders)) == mean_shaded(count)
 
 
+@given(perspective_triangles(5), st.data())
+def test_a_prepass_shades_each_covered_pixel_once(case, data) -> None:
+    clip, size = case
+    scene = ClipScene(clip, size=size)
+    stage, frame = trace(scene, PREPASS).stage("shade"), render(scene, LATE)
+    times = stage.state(stage.steps.count)["times shaded"]
+    assert np.array_equal(times, frame.primitive >= 0)
+    # Of one triangle in focus, what it is left with among all.
+    focus = data.draw(st.integers(0, len(clip) - 1))
+    alone = trace(scene, PREPASS, focus).stage("shade")
+    assert np.array_equal(alone.state(alone.steps.count)["times shaded"], frame.primitive == focus)
+
+
+def test_four_layers_in_any_order_take_768_after_a_prepass() -> None:
+    for order in permutations([0.9, 0.7, 0.5, 0.3]):
+        assert shaded(layers(order), PREPASS) == 768
+    assert shaded(SCENES["intersecting"], PREPASS) == 1491
+    assert shaded(layers([0.5, 0.5]), PREPASS) == 768, "of equal depths the first"
+    assert shaded(layers([0.3, 0.5]), replace(PREPASS, blend="over")) == 768, "what is mixed is tested early"
+    assert shaded(layers([0.5, 0.3]), replace(PREPASS, blend="over")) == 1536
+    (planned,) = planned_passes(SCENES["intersecting"], PREPASS)
+    assert np.array_equal(
+        render(planned.scene, planned.settings).depth, render(SCENES["intersecting"], LATE).depth
+    )
+
+
 @given(perspective_triangles(5))
 def test_a_pixel_is_shaded_as_often_as_its_nearest_depth_falls(case) -> None:
     clip, size = case
@@ -75,9 +104,10 @@ def test_a_pixel_is_shaded_as_often_as_its_nearest_depth_falls(case) -> None:
     assert np.array_equal(stage.state(stage.steps.count)["times shaded"].ravel(), wanted)
 
 
+@pytest.mark.parametrize("when", [EARLY, PREPASS], ids=["early", "prepass"])
 @pytest.mark.parametrize(("name", "chosen"), CHOICES, ids=str)
-def test_the_picture_and_what_is_shaded_stay(name, chosen) -> None:
-    late, early = (replace(settings, **chosen) for settings in (LATE, EARLY))
+def test_the_picture_and_what_is_shaded_stay(name, chosen, when) -> None:
+    late, early = (replace(settings, **chosen) for settings in (LATE, when))
     one, other = render(SCENES[name], late), render(SCENES[name], early)
     assert all(np.array_equal(getattr(one, b), getattr(other, b)) for b in ("color", "depth", "primitive"))
     of_all, of_seen = (trace(SCENES[name], settings) for settings in (late, early))
@@ -114,6 +144,14 @@ def test_the_listings_give_one_colour_and_call_for_it_as_often_as_rows_are_shade
         assert found[0] == found[1]
         assert (found[0] is None) == (stage.kind_of(row) == "skipped")
     assert list(calls.values()) == [stage.steps.row_count, np.count_nonzero(passes)]
+    source = TraceSource(SCENES["clip"], PREPASS)
+    stage, done = trace(SCENES["clip"], PREPASS).stage("shade"), set()
+    stored, left = source.depths[2], source.picture.depth.ravel()[source.place]
+    for row, place in enumerate(source.place.tolist()):
+        color = shade_if_left(
+            stored[row], left[row], lambda at=place: at in done, lambda at=place: done.add(at) or 1.0
+        )
+        assert (color is None) == (stage.kind_of(row) == "skipped")
 
 
 def test_only_a_method_that_tests_depth_takes_the_time_of_the_test() -> None:
@@ -134,6 +172,9 @@ def test_the_history_of_a_pixel_says_what_was_not_shaded() -> None:
     }
     assert keys[0] == ["color"]
     assert keys[1] == ["not-shaded"]
+    history = why(TraceSource(layers([0.5, 0.25]), PREPASS), 3, 4)
+    assert [event.link("shade").key for event in history.events[2:]] == ["not-left", "color"]
+    assert "its depth was written" in event_reason(history.events[2]).lower()
 
 
 def test_the_chart_counts_what_each_order_shades() -> None:

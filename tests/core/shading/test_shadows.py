@@ -150,7 +150,7 @@ def test_what_is_refused_says_why() -> None:
     with pytest.raises(ValueError, match="map_size must be a whole number from 1 to 2048, got 100000"):
         Settings(map_size=100_000)
     with pytest.raises(ValueError, match="a pass must need no pass itself, got one with shadow map"):
-        PlannedPass("itself", BOX, Settings(shadow="map"))
+        PlannedPass("shadow-map", "itself", BOX, Settings(shadow="map"))
     with pytest.raises(ValueError, match="shadow rays needs at most 536,870,912 tests"):
         render(replace(make_scene("knot"), size=(512, 512)), Settings(shadow="rays"))
     projecting = replace(

@@ -212,6 +212,7 @@ def test_depth_test_time() -> None:
         found = run("depth_test_time", work, layers=layers)
         assert found["late"].counts["fragments shaded"] == layers * pixels
         assert found["early"].counts["fragments shaded"] == early
+        assert found["prepass"].counts["fragments shaded"] == pixels
         assert {point.errors["wrong-visible"] for point in found.values()} == {0}
 
 
