@@ -423,13 +423,15 @@ def checks(root: Path, arguments: Sequence[str]) -> list[tuple[str, list[str]]]:
     """Return the parts of the whole check, each a name and a command."""
     python = str(venv_python(root))
     contracts = "from importlinter.cli import lint_imports_command; lint_imports_command()"
+    # Without searching for garbage mypy takes a quarter less time; it keeps nearly all that it makes.
+    types = "import gc; gc.disable(); gc.enable = gc.disable; from mypy.__main__ import console_entry as run; run()"
     workers = str(min(4, os.cpu_count() or 1))
     return [
         ("format", [python, "-m", "ruff", "format", "--check", "."]),
         ("lint", [python, "-m", "ruff", "check", "."]),
         ("import contracts", [python, "-c", contracts, "--no-logo"]),
         ("tests", [python, "-m", "pytest", "-q", "-n", workers, "--dist", "worksteal", *arguments]),
-        ("types", [python, "-m", "mypy", "--strict", "bootstrap.py", "core", "widgets", "lessons", "app"]),
+        ("types", [python, "-c", types, "--strict", "bootstrap.py", "core", "widgets", "lessons", "app"]),
     ]
 
 

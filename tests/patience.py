@@ -1,7 +1,7 @@
 """Waiting in tests: as long as a machine may need that does many things at a time, and saying for what."""
 
 from collections.abc import Callable
-from inspect import getsource
+from inspect import getsource, isfunction
 from typing import Any
 
 from pytestqt.exceptions import TimeoutError
@@ -18,7 +18,8 @@ class PatientBot(QtBot):
         try:
             super().waitUntil(callback, timeout=timeout)
         except TimeoutError as problem:
-            problem.add_note(f"This has not come: {getsource(callback).strip()}")
+            wanted = getsource(callback).strip() if isfunction(callback) else repr(callback)
+            problem.add_note(f"This has not come: {wanted}")
             raise
 
     def waitSignal(self, signal: Any, *, timeout: int = PATIENCE, **more: Any) -> Any:

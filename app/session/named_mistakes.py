@@ -51,6 +51,8 @@ def _draws(twin: Twin, document: Document, mine: Settings, wanted: tuple[bytes, 
     if not twin.is_run or not (twin.takes_any_scene or isinstance(scene, ClipScene)):
         return False
     try:
+        if twin.takes_any_scene and not mine.differences(twin.change_settings(mine)):
+            return False  # It draws what the method itself draws.
         return frame_bytes(twin.draw(cast(ClipScene, scene), mine)) == wanted
     except ValueError:  # It cannot be made on this scene.
         return False

@@ -274,9 +274,9 @@ def test_the_help_of_a_command_has_examples(capsys, command):
 
 HEADLESS = [
     ["render", "shared-edge", "-o", "out.png", "--buffers", "out.npz"],
-    ["trace", "cube", "--triangle", "1", "--stage", "raster", "--format", "csv"],
-    ["trace", "cube", "--triangle", "1", "--stage", "raster", "--format", "npz", "-o", "a.npz"],
-    ["trace", "cube", "--triangle", "1", "--stage", "raster", "--format", "json"],
+    ["trace", "cube", "--triangle", "1", "--stage", "cull", "--format", "csv"],
+    ["trace", "cube", "--triangle", "1", "--stage", "cull", "--format", "npz", "-o", "a.npz"],
+    ["trace", "cube", "--triangle", "1", "--stage", "cull", "--format", "json"],
     ["methods"],
     ["scenes"],
     ["--help"],

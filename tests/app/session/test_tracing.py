@@ -1,6 +1,7 @@
 """Long runs are traced in the background, can be cancelled, and are refused where they cannot be kept."""
 
 from dataclasses import replace
+from threading import Event
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from core.trees.expected import SECONDS
 from lessons.scene_edits import move_corner
 from lessons.scenes import make_scene
 from lessons.shapes import sphere
+from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.shared_window
 
@@ -188,15 +190,20 @@ def test_too_long_a_run_is_refused_with_what_to_do(qtbot: QtBot) -> None:
     assert session.document is before
 
 
-def test_the_window_shows_the_work_and_cancels_it(window: MainWindow, qtbot: QtBot) -> None:
+def test_the_window_shows_the_work_and_cancels_it(
+    window: MainWindow, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
     window.session.open(open_document(make_scene("sphere"), "Sphere"))
-    before = window.session.document
-    settings = Settings(fill="brute-force")
+    before, is_shown = window.session.document, Event()
     whole = replace(
-        before, raster=replace(before.raster, columns=56, rows=42, origin=None), settings=settings
+        before,
+        raster=replace(before.raster, columns=56, rows=42, origin=None),
+        settings=Settings(fill="brute-force"),
     )
+    monkeypatch.setattr("app.session.tracing.trace_now", lambda document, stage: is_shown.wait(PATIENCE))
     window.edits.edit(whole)
     qtbot.waitUntil(window.messages.isVisible)
+    is_shown.set()
     assert window.messages.text.text() == "Tracing Sphere"
     window.messages.cancel_button.click()
     assert not window.session.tracing.is_busy
