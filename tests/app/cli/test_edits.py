@@ -1,10 +1,12 @@
 """``--edit PART=FILE``: a listing of one's own draws, is traced, and is told where it is wrong."""
 
 import json
+from argparse import ArgumentTypeError
 
 import numpy as np
 import pytest
 
+from app.cli.arguments import SIZE_LIMIT, read_listing, size_from_text
 from core import Settings, render
 from core.edits import Edit, apply_edit, original
 from lessons.scenes import make_scene
@@ -79,3 +81,16 @@ def test_what_cannot_run_is_told_in_one_line(listings, code, arguments, words):
     folder, _ = listings
     assert words in refused(code, "render", *arguments, "-o", folder / "out.png", cwd=folder)
     assert not (folder / "out.png").exists()
+
+
+def test_a_listing_is_read_without_the_mark_of_its_encoding(tmp_path):
+    (tmp_path / "a.py").write_bytes("def f():\n    return 1\n".encode("utf-8-sig"))
+    assert read_listing(str(tmp_path / "a.py")) == "def f():\n    return 1\n"
+
+
+def test_a_size_is_from_one_to_the_limit_each_way():
+    for text in ("1x1", f"{SIZE_LIMIT}x1", f"1×{SIZE_LIMIT}"):
+        assert max(size_from_text(text)) in (1, SIZE_LIMIT)
+    for text in ("0x1", "1x0", f"{SIZE_LIMIT + 1}x1", f"1x{SIZE_LIMIT + 1}", "1x1x1"):
+        with pytest.raises(ArgumentTypeError):
+            size_from_text(text)

@@ -209,6 +209,17 @@ def test_stl_triangles_keep_their_order(tmp_path, content):
     assert mesh.normals is None
 
 
+def test_a_text_stl_may_be_in_capitals_and_a_binary_one_begin_with_solid(tmp_path):
+    for name, content in (
+        ("a", "\n " + stl_text(CORNERS).upper()),
+        ("b", b"SOLID" + stl_binary(CORNERS)[5:]),
+    ):
+        mesh = one(write(tmp_path / f"{name}.stl", content))
+        assert mesh.positions[mesh.triangles].tolist() == CORNERS.tolist()
+    cut = write(tmp_path / "c.stl", b"solid" + stl_binary(CORNERS)[5:-10])
+    assert "cut short: it counts 2 triangles and ends after 1" in refusal(cut)
+
+
 def test_each_solid_of_a_text_stl_is_a_mesh(tmp_path):
     loaded = load_meshes(
         write(tmp_path / "a.stl", stl_text(CORNERS[:1], "left") + stl_text(CORNERS[1:], "right"))

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from app.files.file_access import FileWriteError
 from app.files.open_any import open_any
+from app.files.state_arrays import READABLE_COUNT, array_record
 from app.files.state_files import EXTENSION, State, StateFileError, load_state, readable_json, save_state
 from app.session.document import open_document
 from lessons.scenes import make_scene, scene_names
@@ -105,3 +106,9 @@ def test_a_pin_beside_the_raster_is_taken_away_with_a_warning(tmp_path):
     state, warnings = load_state(path)
     assert state.pin is None
     assert warnings == ("The pinned pixel (9999, 3) is not in the raster: nothing is pinned.",)
+
+
+def test_short_arrays_are_written_to_be_read_and_long_ones_packed():
+    for count, is_read in ((READABLE_COUNT, True), (READABLE_COUNT + 1, False)):
+        record = array_record(np.arange(float(count)))
+        assert (record.rows is not None, record.zlib is not None) == (is_read, not is_read)

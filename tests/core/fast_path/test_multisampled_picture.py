@@ -102,3 +102,13 @@ def test_a_picture_with_its_depth_takes_the_plain_way():
     picture = draw_picture(SCENES["lit"], settings, with_depth=True)
     assert picture.route.visibility == "frame"
     assert np.array_equal(picture.depth, render(SCENES["lit"], settings).depth)
+
+
+def test_light_is_cut_off_where_samples_end_at_a_limit_and_differ():
+    pairs = [(0, 0), (0, 5), (5, 7), (255, 255), (5, 255), (0, 255)]
+    samples = np.zeros((2, 1, len(pairs), 4), np.uint8)
+    samples[:, 0, :, 1] = np.transpose(pairs)
+    usual, unusual = (sampled.is_cut_off(samples, 0, is_unusual)[0].tolist() for is_unusual in (False, True))
+    assert usual == [False, False, False, False, True, True]
+    assert unusual == [False, True, False, False, True, True]
+    assert sampled.is_cut_off(samples, 1, False)[0].tolist() == [False, False, True, True, True, True]

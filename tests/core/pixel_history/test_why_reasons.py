@@ -94,3 +94,10 @@ def test_pieces_are_counted_as_they_are_drawn_and_a_division_mirrors_where_any_w
         link = why(source, column, row).fragments[0].link("clip")
         assert link.values["piece_count"] == (drawn == 0).sum()
         assert link.values["division"] == ("mirrored" if clipping != "sutherland-hodgman" else "")
+
+
+def test_the_block_of_a_missed_pixel_is_the_smallest_that_was_looked_at():
+    found = (
+        ask(window_scene(LOWER_LEFT), 6, 6, 0, fill="hierarchy", block_size=2).verdict.values["reason"].values
+    )
+    assert (found["block_size"], found["block"]) == (2, (3, 3))

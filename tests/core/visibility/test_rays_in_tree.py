@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from core import ClipScene, Settings, render, trace
 from core.methods import table
 from core.pixel_history import why
-from core.visibility.rays_in_tree import meet_box, slabs, walk_tree
+from core.records.box_tree import BoxTree
+from core.visibility.rays_in_tree import _largest_below, meet_box, slabs, walk_tree
 from lessons.scenes import make_scene
 from tests.core.culling.test_object_culling import PLACE, SIDES, boxes_scene
 from tests.core.strategies import clip_of_window, homogeneous_triangles
@@ -153,3 +154,17 @@ def test_the_history_of_a_pixel_names_the_node_that_hides() -> None:
     assert [event.triangle for event in kept] == [
         int(render(scene).primitive[fragments.row[at], fragments.column[at]])
     ]
+
+
+def test_a_node_has_the_largest_value_of_what_is_in_it() -> None:
+    # A root of two leaves, the second one empty, and a leaf beside it; object 1 lies in two leaves.
+    tree = BoxTree(
+        np.zeros((4, 3)),
+        np.ones((4, 3)),
+        np.array([3, 2, 3, 4]),
+        np.array([0, 0, 2, 2, 4]),
+        np.array([0, 1, 1, 2]),
+    )
+    values = np.array([-3.0, -5.0, 4.0])
+    expected = [max((values[item] for item in tree.items_of(node)), default=0.0) for node in range(len(tree))]
+    assert _largest_below(tree, values).tolist() == expected == [-3.0, -3.0, 0.0, 4.0]

@@ -16,7 +16,7 @@ from core.pipeline import draw
 from core.pixel_history import why
 from core.trace import TraceSource
 from core.visibility.ray_casting import RayPlanes
-from core.visibility.scan_line import ALONE, HALVED, PAIR, SAME, ScanLines, Spans, draw_rows
+from core.visibility.scan_line import ALONE, HALVED, PAIR, SAME, ScanLines, Spans, draw_rows, find_spans
 from lessons.scenes import make_scene
 from tests.core.strategies import ANY_TRIANGLES, REGIONS, clip_of_window
 from tests.core.trace.trace_cases import SCENES
@@ -139,6 +139,27 @@ def test_segments_tile_what_is_covered_and_their_ends_decide(count: int, seed: i
             times[row, left:right] += 1
     covered = render(ClipScene(crowd(count, (13, 9), seed), size=(13, 9)), replace(LINES, cull="none"))
     assert np.array_equal(times, covered.cover_count > 0)
+    places = list(zip(segments.row, segments.left, -segments.right, strict=True))
+    assert places == sorted(places), "each before its halves"
+
+
+def test_a_span_ends_where_the_next_pixel_is_missing_or_of_something_else() -> None:
+    # Columns 0 1 . 3 of row 0 and column 4 of row 1 are primitive 0; columns 4 and 5 of row 0 are primitive 1. Before
+    # there was triangle 7 in columns 1 and 3 of row 0.
+    column, row = np.array([[0, 1, 3, 4, 4, 5], [0, 0, 0, 1, 0, 0]])
+    primitive = np.array([0, 0, 0, 0, 1, 1])
+    initial = np.full(12, -1)
+    initial[[1, 3]] = 7
+    spans = find_spans(primitive + 2, primitive, column, row, 6 * row + column, initial)
+    found = sorted(zip(spans.row, spans.left, spans.right, spans.triangle, spans.primitive, strict=True))
+    assert found == [
+        (0, 0, 2, 2, 0),
+        (0, 1, 2, 7, -1),
+        (0, 3, 4, 2, 0),
+        (0, 3, 4, 7, -1),
+        (0, 4, 6, 3, 1),
+        (1, 4, 5, 2, 0),
+    ]
 
 
 def spans_of(spans: Spans) -> dict[int, dict[int, tuple[int, int]]]:

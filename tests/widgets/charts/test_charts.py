@@ -49,7 +49,7 @@ PICTURE = ChartPicture(TIME, ERROR, POINTS, ("fast", "middle", "exact"))
 def told(widget: Chart | ChartLegend, action: Callable[[], object]) -> list[tuple[object, ...]]:
     """Return what a widget tells while something is done, signal by signal."""
     found: list[tuple[object, ...]] = []
-    for name in ("series_hovered", "series_left", "series_chosen", "point_chosen"):
+    for name in ("series_hovered", "point_hovered", "series_left", "series_chosen", "point_chosen"):
         if hasattr(widget, name):
             getattr(widget, name).connect(lambda *args, name=name: found.append((name, *args)))
     action()
@@ -131,7 +131,8 @@ def test_arrows_reach_every_point_and_stop_at_the_ends(chart: Chart, pane) -> No
         return
     keys = (KEY.Key_Right, KEY.Key_Right, KEY.Key_Down, KEY.Key_Right, KEY.Key_Up)
     seen = told(chart, lambda: [QTest.keyClick(chart, key) for key in keys])
-    assert [key for _, key in seen] == ["fast", "middle", "exact", "middle"], "the last of the row is the end"
+    hovered = [key for name, key, *_ in seen if name == "series_hovered"]
+    assert hovered == ["fast", "middle", "exact", "middle"], "the last of the row is the end"
     reached, waiting = set(), ["fast"]
     while waiting:
         key = waiting.pop()
@@ -196,16 +197,25 @@ def test_a_zoom_stays_until_all_is_shown_again(chart: Chart) -> None:
     assert len(chart.places()) < len(POINTS), "new numbers leave the view as the user has put it"
     chart.fit()
     assert [at(chart, series.key) for series in POINTS] == before
+    chart.view.scaleBy((0.9, 0.9))
+    zoomed = at(chart, "exact")
+    QTest.mouseDClick(chart.viewport(), LEFT, pos=zoomed)
+    assert at(chart, "exact") == zoomed != before[2]
+    QTest.mouseDClick(chart.viewport(), LEFT, pos=at(chart, "middle") + QPoint(60, 40))
+    assert [at(chart, series.key) for series in POINTS] == before
 
 
 def test_the_points_of_a_line_are_told_by_number_and_those_without_a_place_left_out(chart: Chart) -> None:
     line = ChartSeries("line", "Line", 0, np.array([1.0, 10, 100]), np.array([5.0, 0.0, np.nan]))
     chart.show_picture(ChartPicture(ChartAxis("Width"), ChartAxis("Severity"), (line,), is_named=False))
     assert [index for _, index, _ in chart.points()] == [0, 1]
-    place = chart.place_of("line", 1)
+    first, second = (chart.place_of("line", index).toPoint() for index in (0, 1))
     assert ("point_chosen", "line", 1) in told(
-        chart, lambda: QTest.mouseClick(chart.viewport(), LEFT, pos=place.toPoint())
+        chart, lambda: QTest.mouseClick(chart.viewport(), LEFT, pos=second)
     )
+    seen = told(chart, lambda: [QTest.mouseMove(chart.viewport(), place) for place in (first, second)])
+    assert seen.count(("series_hovered", "line")) <= 1, "another point of the same series"
+    assert ("point_hovered", "line", 0) in seen
 
 
 def test_twelve_are_named_the_pointed_chosen_and_front_ones_first(chart: Chart) -> None:

@@ -1,5 +1,7 @@
 """A pixel grid under pointer and wheel: hover, click, zoom, pan, vertices that are dragged, brushes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
@@ -9,6 +11,7 @@ from PySide6.QtWidgets import QApplication
 
 from tests.widgets.grid.pixel_grids import LEFT, TRIANGLE, at, drag, shown_grid, wheel
 from tests.widgets.showing import Told, told
+from widgets.grid.geometry import vertex_near
 from widgets.grid.marks import StepMark
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.view import FIT, GridView
@@ -98,6 +101,14 @@ def test_a_vertex_is_dragged_and_no_pixel_is_pointed_at_meanwhile(grid: PixelGri
     assert "pixel_clicked" not in names
     pointed = [rest for name, *rest in heard if name == "pixel_hovered"]
     assert (len(pointed), names[-1]) == (1, "pixel_hovered"), "where the vertex is let go"
+
+
+@pytest.mark.parametrize("nearest", [0, 1])
+def test_of_two_vertices_within_reach_the_nearest_is_taken(grid: PixelGrid, nearest: int) -> None:
+    places = np.array([[8.0, 8.0], [8.0, 8.0], [20.0, 3.0]])
+    places[1 - nearest, 0] += 3 / grid.placement().cell
+    geometry = replace(TRIANGLE, vertices=places)
+    assert vertex_near(geometry, grid.placement(), grid.placement().to_widget(8.0, 8.0)) == nearest
 
 
 def test_shift_rounds_a_dragged_vertex(grid: PixelGrid, heard: Told) -> None:

@@ -1,10 +1,13 @@
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QColor
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLineEdit, QPushButton, QToolTip
 
+from widgets.basics.theme import current_theme
 from widgets.grid.layers import GridBuffer
+from widgets.grid.range_control import _BINS as BINS
 from widgets.grid.range_control import Histogram, RangeControl
 
 LEFT, NO_KEY = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
@@ -58,6 +61,18 @@ def test_dragging_a_handle_changes_its_end(control: RangeControl, qtbot) -> None
     QTest.mouseRelease(bars, LEFT, NO_KEY, end)
     assert changed.args == pytest.approx([2.0, 6.0], abs=0.05)
     assert edits(control)[1].text().startswith(("5.9", "6"))
+
+
+def test_bars_stand_where_their_values_are_the_largest_in_the_last(control: RangeControl) -> None:
+    control.show_buffer(GridBuffer("z", np.array([[0.0] * 5 + [7.0] * 5 + [8.0] * 5]), range=(0.0, 0.1)))
+    bars = histogram(control)
+    image, ground = bars.grab().toImage(), QColor(current_theme().outline)
+    painted = [x for x in range(bars.width()) if image.pixelColor(x, bars.height() // 2) == ground]
+    width = (bars.position_of(8.0) - bars.position_of(0.0)) / BINS
+    for value in (7.0, 8.0):
+        left = bars.position_of(0.0) + min(int(value / 8 * BINS), BINS - 1) * width
+        assert any(left <= x + 0.5 <= left + width for x in painted), value
+    assert max(painted) < bars.position_of(8.0)
 
 
 def test_handles_do_not_pass_each_other(control: RangeControl) -> None:

@@ -108,6 +108,16 @@ def test_zooming_stays_inside_the_run(bar) -> None:
     assert bar.visible_stretch() == (0.0, 512.0)
 
 
+def test_the_view_moves_by_an_eighth_of_itself(bar) -> None:
+    for direction in (1, -1):
+        bar.show_everything()
+        bar.zoom(0.25, (bar.x_of(0) + bar.x_of(512)) / 2)
+        first, last = bar.visible_stretch()
+        bar.move_view(direction)
+        moved = direction * (last - first) / 8
+        assert bar.visible_stretch() == pytest.approx((first + moved, last + moved))
+
+
 def test_the_view_follows_the_position(bar) -> None:
     bar.zoom(0.05, bar.x_of(10.0))
     bar.show_position(400)
