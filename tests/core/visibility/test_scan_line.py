@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import cmp_to_key
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render, trace
+from core.coverage.fills import Fragments
 from core.coverage.pixel_runs import Raster
 from core.explain.step_tables import step_table
 from core.methods import table
@@ -150,7 +152,11 @@ def test_a_span_ends_where_the_next_pixel_is_missing_or_of_something_else() -> N
     primitive = np.array([0, 0, 0, 0, 1, 1])
     initial = np.full(12, -1)
     initial[[1, 3]] = 7
-    spans = find_spans(primitive + 2, primitive, column, row, 6 * row + column, initial)
+    fragments = Fragments(primitive, column, row)
+    case = SimpleNamespace(
+        triangle=primitive + 2, pixel=6 * row + column, initial=initial, fragments=fragments
+    )
+    spans = find_spans(case)
     found = sorted(zip(spans.row, spans.left, spans.right, spans.triangle, spans.primitive, strict=True))
     assert found == [
         (0, 0, 2, 2, 0),

@@ -11,7 +11,7 @@ from app.pages.exercises import answers
 from app.window.main_window import MainWindow
 from lessons.course.catalogue import FOLDER
 from lessons.exercises.question import Draft
-from tests.app.pages.step.test_lessons import answered, kept, opened, settled
+from tests.app.pages.step.lesson_walks import answered, kept, opened, settled
 from widgets.exercises.answer_forms import CodeAnswerView
 from widgets.exercises.records import Standing
 
