@@ -54,7 +54,14 @@ def weight(step: StepValues) -> Said:
     how = "its place along the line in the window" if is_affine else "the second part over 1/w"
     text = f"{step.fragment_name}: the second end has weight {s}, {how}, and the first end {spoken(1 - s.value)}."
     if is_affine:
-        return text, formula_of(s.equals(step.named("t", "t")))
+        before = step.named("t_before", r"s_{\mathrm{before}}")
+        if math.isnan(before.value):
+            return text, formula_of(s.equals(step.named("t", "t")))
+        difference = named(r"\Delta s", s.value - before.value)
+        if difference.value:
+            more = "more" if difference.value > 0 else "less"
+            text = f"{text[:-1]}, {spoken(abs(difference.value))} {more} than at the pixel before."
+        return text, formula_of(s.equals(step.named("t", "t")), s.equals(before + difference))
     return text, formula_of(s.equals(named("p_1", step.vector("parts")[1]) / step.named("total", "1/w")))
 
 
@@ -235,8 +242,17 @@ def value_along(step: StepValues) -> Said:
     name = step.operation.removeprefix("value-")
     letter, found, ends = _component(step, step.corner_values(name, "end_values"))
     first, second = (named(step.of_end(letter, end), value) for end, value in enumerate(ends))
-    mixed = named("(1 - s)", 1 - s) * first + named("s", s) * second
-    return _value(step, how), formula_of(named(letter, found).equals(mixed))
+    mixed = named(letter, found).equals(named("(1 - s)", 1 - s) * first + named("s", s) * second)
+    if step.kind == "line-perspective" or math.isnan(step.number("t_before")):
+        return _value(step, how), formula_of(mixed)
+    # Linear along the line: every pixel adds the same difference.
+    k = [one[0] for one in component_names(name, len(step.vector(name)))].index(letter)
+    before = step.corner_values(name, "values_before")[0][k]
+    difference = named(r"\Delta s", s - step.number("t_before"))
+    added = named(letter, found).equals(
+        named(f"{letter}_{{\\mathrm{{before}}}}", before) + difference * (second - first)
+    )
+    return _value(step, how), formula_of(mixed, added)
 
 
 @explains("interpolate.point.value")

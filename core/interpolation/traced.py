@@ -174,7 +174,8 @@ def _along_lines(source: TraceSource, mode: str) -> dict[str, np.ndarray]:
     t = line_parameter(outlines, fragments, center)
     start, end = inverse_w_parts(outlines, fragments, center)
     at_ends = values_at_ends(outlines, source.geometry.primitives.varyings, mode)
-    return {
+    differences = _differences(fragments.segment, t, source.interpolated[1]) if mode == "affine" else {}
+    return differences | {
         "segment": fragments.segment,
         "edge": outlines.edge[fragments.segment],
         "t": t,
@@ -184,6 +185,14 @@ def _along_lines(source: TraceSource, mode: str) -> dict[str, np.ndarray]:
         "s": t if mode == "affine" else end / (start + end),
         "end_values": at_ends[fragments.segment],
     }
+
+
+def _differences(segment: Integers, t: Floats, values: Floats) -> dict[str, np.ndarray]:
+    """Return t (F,) and values (F, K) at the pixel before on the same segment; NaN at its first pixel."""
+    t_before, values_before = np.full(t.shape, np.nan), np.full(values.shape, np.nan)
+    follows = np.flatnonzero(segment[1:] == segment[:-1])
+    t_before[follows + 1], values_before[follows + 1] = t[follows], values[follows]
+    return {"t_before": t_before, "values_before": values_before[:, None]}
 
 
 def _buffers(source: TraceSource) -> tuple[BufferTrack, ...]:
