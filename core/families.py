@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from core.methods import ReplacedName, table
+from core.records.deformations import Skin
 from core.records.words import nouns
 from core.scene import AnyScene, ClipScene
 
@@ -117,6 +118,7 @@ NOT_FOR: Mapping[str, Mapping[str, str]] = {
     "no curves": dict.fromkeys(
         ("tessellation", "segments", "curve_tolerance"), "This scene has no curves and no patches of curves."
     ),
+    "no bones": {"skinning": "No mesh of this scene hangs on bones."},
     "no lights": {
         "shading": "Typed triangles have no lights: they are unlit.",
         "object_culling": "This scene has no meshes: only those have boxes in world space.",
@@ -138,6 +140,7 @@ def facts(scene: AnyScene | None) -> list[str]:
         "own shaders": scene.program is not None,
         "no shadow": isinstance(scene, ClipScene) or scene.casting_light < 0,
         "no curves": not has_curves(scene),
+        "no bones": not has_bones(scene),
         "no lights": isinstance(scene, ClipScene),
     }
     return [fact for fact, is_so in holds.items() if is_so]
@@ -148,6 +151,13 @@ def has_curves(scene: AnyScene) -> bool:
     if isinstance(scene, ClipScene):
         return scene.curves is not None
     return any(mesh.patches is not None for mesh in scene.meshes)
+
+
+def has_bones(scene: AnyScene) -> bool:
+    """Return whether some mesh of a scene hangs on bones."""
+    return not isinstance(scene, ClipScene) and any(
+        isinstance(mesh.deformation, Skin) for mesh in scene.meshes
+    )
 
 
 def casts_rays(visibility: str) -> bool:

@@ -10,6 +10,7 @@ import numpy as np
 from core.records.arrays import Floats, Integers, Singles, cached_property, checked, checked_size, read_only
 from core.records.clip_region import checked_polygon_region, checked_region
 from core.records.curves import Curves, checked_patches
+from core.records.deformations import Deformation
 from core.records.depth_table import DepthTable
 from core.records.primitives import checked_rings
 from core.shaders.record import ShaderProgram
@@ -92,6 +93,10 @@ class Mesh:
     """(4, 4) float64, M: object to world."""
     material: Material = field(default_factory=Material)
     name: str = "mesh"
+    deformation: Deformation | None = None
+    """What moves the vertices before M; ``None``: they stay (`core.deformation`)."""
+    rest: "Mesh | None" = None
+    """The mesh that this one was made of by its deformation; ``None``: it is not deformed yet."""
 
     def __post_init__(self) -> None:
         positions = checked("positions", self.positions, ("N", 3), limit=COORDINATE_LIMIT)
@@ -123,6 +128,21 @@ class Mesh:
         if self.patches is not None:
             patches = checked_patches(self.name, self.patches, COORDINATE_LIMIT)
             object.__setattr__(self, "patches", patches)
+        if self.deformation is not None:
+            if self.patches is not None:
+                raise ValueError(
+                    f"{self.name} is made of patches, which have no vertices of their own to deform"
+                )
+            if self.deformation.vertex_count != count:
+                raise ValueError(
+                    f"the deformation of {self.name} must be one of {count} vertices, "
+                    f"got {self.deformation.vertex_count}"
+                )
+
+    @property
+    def makes_positions(self) -> bool:
+        """Whether its vertices are made before the matrices are applied."""
+        return self.patches is not None or self.deformation is not None
 
     @property
     def is_affine(self) -> bool:
@@ -252,7 +272,7 @@ class Scene:
         object.__setattr__(self, "lights", tuple(self.lights))
         if not self.meshes:
             raise ValueError("a scene needs at least one mesh")
-        object.__setattr__(self, "makes_positions", any(mesh.patches is not None for mesh in self.meshes))
+        object.__setattr__(self, "makes_positions", any(mesh.makes_positions for mesh in self.meshes))
         object.__setattr__(self, "size", checked_size("size", self.size, SIZE_LIMIT))
         object.__setattr__(self, "background", checked("background", self.background, (4,)))
 

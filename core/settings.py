@@ -16,6 +16,9 @@ class Settings:
     Raises ValueError if a value is not in the table; the message lists those that are.
     """
 
+    skinning: str = choice(
+        "linear", "Skinning", "transform", "core.deformation.skinning", asks=("listing",), is_look=True
+    )
     tessellation: str = choice(
         "uniform", "Tessellation", "transform", "core.tessellation.segments", asks=("listing",)
     )
@@ -131,10 +134,7 @@ class Settings:
         classical=("perspective", "affine", "flat"),
     )
     provoking: str = choice(
-        "last",
-        "Provoking vertex",
-        "interpolate",
-        "core.interpolation.interpolation",
+        *("last", "Provoking vertex", "interpolate", "core.interpolation.interpolation"),
         taken_by="interpolation",
         otherwise="Only flat interpolation takes one corner's value.",
         is_look=True,

@@ -10,6 +10,7 @@ import numpy as np
 from core.families import has_curves
 from core.records.arrays import Floats
 from core.records.clip_region import region_in_window, region_of_window
+from core.records.deformations import Blend, Skin
 from core.scene import AnyScene, Camera, ClipScene, Mesh, Scene
 from core.transform.vertex_stage import transform_vertices
 
@@ -81,9 +82,13 @@ def move_corner(
 
 
 def check_not_made(scene: AnyScene) -> None:
-    """Refuse to move a vertex that is a point of a curve or patch: ValueError."""
+    """Refuse to move a vertex that is a point of a curve or patch, or that a deformation places: ValueError."""
     if has_curves(scene):
         raise ValueError("this vertex is a point of a curve or patch, which its control points make")
+    if scene.makes_positions:
+        raise ValueError(
+            "bones or shapes place this vertex: change their angles or weights in the Scene pane"
+        )
 
 
 def set_clip_corner(scene: ClipScene, triangle: int, corner: int, clip: Floats) -> ClipScene:
@@ -143,6 +148,8 @@ def set_value(scene: AnyScene, path: str, value: float, size: tuple[int, int]) -
         return replace(scene, lights=tuple(lights))
     index, name = int(names[0]), names[-1]
     mesh = scene.meshes[index]
+    if kind in ("bone", "shape"):
+        return _with_mesh(scene, index, _with_deformation(mesh, int(names[1]), value))
     return _with_mesh(scene, index, replace(mesh, material=replace(mesh.material, **{name: value})))
 
 
@@ -182,6 +189,19 @@ def _set_camera(camera: Camera, names: list[str], value: float) -> Camera:
     if names[-1] == "field_of_view":
         return replace(camera, field_of_view=radians(value))
     return replace(camera, **{names[-1]: value})  # type: ignore[arg-type]
+
+
+def _with_deformation(mesh: Mesh, number: int, value: float) -> Mesh:
+    """Return a mesh with the angle of a bone, in degrees, or the weight of a shape replaced."""
+    held = mesh.deformation
+    if isinstance(held, Skin):
+        angles = held.angles.copy()
+        angles[number] = radians(value)
+        return replace(mesh, deformation=replace(held, angles=angles))
+    assert isinstance(held, Blend)
+    weights = held.weights.copy()
+    weights[number] = value
+    return replace(mesh, deformation=replace(held, weights=weights))
 
 
 def _mesh_of_vertex(scene: Scene, vertex: int) -> tuple[int, int]:

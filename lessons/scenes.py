@@ -15,12 +15,14 @@ from lessons.assembled_scenes import (
     segment_in_polygon,
     triangle_strip,
 )
+from lessons.bone_scenes import bent_bar, blended_bar, twisted_tube
 from lessons.curve_scenes import arch, cracked, curve_in_depth, hill
 from lessons.run_place import FIRST_STEP, RunPlace
 from lessons.shapes import FACE_COLORS, cube, knot, linear_color, sphere, teapot, torus
 from lessons.window_scenes import (
     circle_of_bars,
     connecting_edges,
+    moving_bar,
     pentagram,
     polygon_with_holes,
     two_triangles,
@@ -121,16 +123,6 @@ def crossing_glass() -> ClipScene:
     opaque = intersecting()
     colors = np.asarray(opaque.attributes) * [1, 1, 1, 0.5]
     return ClipScene(opaque.clip, colors, opaque.size)
-
-
-def moving_bar() -> ClipScene:
-    """An upright bar on a screen of 16 rows: where it is torn, its sides have a step."""
-    corners = [[(6, 0), (10, 0), (10, 16)], [(6, 0), (10, 16), (6, 16)]]
-    places = np.array(corners, float)
-    clip = np.stack(
-        [window_triangle(x, y, np.full(3, 0.5), np.ones(3), (24, 16)) for x, y in places.transpose(0, 2, 1)]
-    )
-    return ClipScene(clip, np.tile(linear_color(FACE_COLORS[1]), (2, 3, 1)), (24, 16))
 
 
 def four_layers() -> ClipScene:
@@ -349,6 +341,27 @@ CATALOGUE = (
         two_boxes,
         RunPlace("depth", 'kind == "tree-leaf" and enter_z < 5'),
         {"visibility": "ray-casting-tree", "leaf_size": "12"},
+    ),
+    BuiltInScene(
+        "bent-bar",
+        "Bent bar",
+        "Two bones bend a bar of width 2 by 90 degrees: halfway between them it is 1.41 wide.",
+        bent_bar,
+        RunPlace("transform", 'kind == "skin" and vertex == 8', "x"),
+    ),
+    BuiltInScene(
+        "twisted-tube",
+        "Twisted tube",
+        "A bone twists half of a tube by 170 degrees: the linear mixture of both turns has almost no width.",
+        twisted_tube,
+        RunPlace("transform", 'kind == "skin" and bones == 2'),
+    ),
+    BuiltInScene(
+        "blended-bar",
+        "Blended shapes",
+        "Halfway between straight and turned by 90 degrees every point is on its chord: the bar is 0.71 times as long.",
+        blended_bar,
+        RunPlace("transform", 'kind == "blend"'),
     ),
     BuiltInScene(
         "curve",

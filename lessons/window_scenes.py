@@ -199,3 +199,13 @@ def equal_depths() -> ClipScene:
 def larger_is_nearer() -> ClipScene:
     """Return three patches of whole numbers that stand for 1/w: larger ones pass."""
     return table_scene(depth_table(*INVERSE_W, test="greater"))
+
+
+def moving_bar() -> ClipScene:
+    """An upright bar on a screen of 16 rows: where it is torn, its sides have a step."""
+    corners = [[(6, 0), (10, 0), (10, 16)], [(6, 0), (10, 16), (6, 16)]]
+    places = np.array(corners, float)
+    clip = np.stack(
+        [window_triangle(x, y, np.full(3, 0.5), np.ones(3), (24, 16)) for x, y in places.transpose(0, 2, 1)]
+    )
+    return ClipScene(clip, np.tile(linear_color(FACE_COLORS[1]), (2, 3, 1)), (24, 16))

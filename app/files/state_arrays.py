@@ -24,6 +24,7 @@ from app.files.file_access import make_folder, read_input, write_file
 from app.files.state_models import ArrayRecord
 from app.session.memory import Need, check_free
 from core.records.curves import Curves
+from core.records.deformations import Blend, Skin
 from core.scene import ClipScene, Mesh, Scene
 from lessons.os_errors import os_error_reason
 from lessons.scenes import make_scene, scene_names
@@ -31,8 +32,14 @@ from lessons.scenes import make_scene, scene_names
 # Where the arrays of a mesh come from: fingerprints tell whether a file or built-in scene still has them.
 
 
-ARRAYS = ("positions", "triangles", "normals", "uvs", "colors", "faces", "texture", "patches")
+OWN_ARRAYS = ("positions", "triangles", "normals", "uvs", "colors", "faces", "texture", "patches")
 """Arrays of a mesh; the texture's are its pixels."""
+SKIN_ARRAYS = ("weights", "heads", "tails", "parents", "axes", "angles")
+BLEND_ARRAYS = ("targets", "weights")
+DEFORMATION_ARRAYS = (*(f"skin_{name}" for name in SKIN_ARRAYS), *(f"blend_{name}" for name in BLEND_ARRAYS))
+"""Arrays of `core.records.deformations.Skin` and ``Blend``."""
+ARRAYS = (*OWN_ARRAYS, *DEFORMATION_ARRAYS)
+"""Arrays that a mesh is kept by."""
 
 EARLIER = frozenset(
     {
@@ -71,8 +78,27 @@ def array_of(mesh: Mesh, name: str) -> NDArray[Any] | None:
     """Return one of ``ARRAYS`` of a mesh."""
     if name == "texture":
         return None if mesh.texture is None else mesh.texture.pixels
+    kind, _, part = name.partition("_")
+    if name in DEFORMATION_ARRAYS:
+        held = mesh.deformation
+        has = isinstance(held, Skin if kind == "skin" else Blend)
+        return np.asarray(getattr(held, part)) if has else None
     value: NDArray[Any] | None = getattr(mesh, name)
     return value
+
+
+def with_deformation(arrays: dict[str, Any]) -> dict[str, Any]:
+    """Return the arrays of a mesh with those of a deformation made into one; ValueError where they do not fit."""
+    found = {name: values for name, values in arrays.items() if name in DEFORMATION_ARRAYS}
+    own = {name: values for name, values in arrays.items() if name not in found}
+    if not found:
+        return own
+    kind = "skin" if "skin_weights" in found else "blend"
+    names = SKIN_ARRAYS if kind == "skin" else BLEND_ARRAYS
+    if found.keys() != {f"{kind}_{name}" for name in names}:
+        raise ValueError(f"a {kind} needs all and only the arrays {', '.join(names)}, got {', '.join(found)}")
+    make: Any = Skin if kind == "skin" else Blend
+    return own | {"deformation": make(**{name: found[f"{kind}_{name}"] for name in names})}
 
 
 CLIP_ARRAYS = (

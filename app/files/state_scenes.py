@@ -44,6 +44,7 @@ from app.files.state_arrays import (
     may_name_outside,
     remember_file,
     remembered_fingerprints,
+    with_deformation,
 )
 from app.files.state_models import (
     ArrayRecord,
@@ -432,7 +433,7 @@ def _mesh(
     with in_field(field):
         if "texture" in arrays:
             arrays["texture"] = Texture(arrays["texture"], record.texture_name)
-        material = Material(**record.material.model_dump())
+        material, arrays = Material(**record.material.model_dump()), with_deformation(arrays)
         return Mesh(transform=np.array(record.transform), material=material, name=record.name, **arrays)
 
 

@@ -11,6 +11,7 @@ from math import inf
 import numpy as np
 
 from app.session.moment import Moment
+from app.views.bone_marks import bone_marks
 from app.views.box_marks import SpaceMark, box_marks
 from core.clipping.planes import clip_segments
 from core.clipping.sutherland_hodgman import DEPTH_PLANES, clip_primitives
@@ -268,7 +269,7 @@ def step_marks(moment: Moment, space: ViewSpace) -> list[SpaceMark]:
     """Return the marks of the step just done, the present item last and in the accent."""
     stage, position = moment.cursor.stage, moment.cursor.position
     if stage == "transform":
-        return _corner_marks(moment, space, position)
+        return bone_marks(moment.trace.source.scene) + _corner_marks(moment, space, position)
     marks = _point_marks(moment, space)
     if stage == "cull":
         return marks + _facing_marks(moment, space, position)

@@ -183,6 +183,7 @@ EDITABLE = {
 """By name, which the command line takes before ``=``."""
 _FIXED = "It chooses what is drawn, and has no listing."
 NOT_EDITABLE = {
+    "skinning": "Its listings add up over bones, of which vertices have different numbers.",
     "tessellation": "Its listings make a list of points, or numbers for a whole curve, not one for each pixel.",
     "object_culling": "It asks boxes of whole meshes, before there are triangles.",
     "hierarchy": "Its listing builds a tree of all boxes.",

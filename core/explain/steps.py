@@ -155,6 +155,7 @@ shows("resolve", PIXEL)
 TOPICS = (
     *(
         "transform",
+        "deformation",
         "tessellation",
         "trees",
         "culling",

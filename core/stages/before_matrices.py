@@ -6,7 +6,8 @@ put in front of the first matrix of each corner, see `core.transform.traced`.
 
 from typing import TYPE_CHECKING
 
-from core.scene import AnyScene, ClipScene
+from core.families import has_curves
+from core.scene import AnyScene, ClipScene, Scene
 from core.settings import Settings
 
 if TYPE_CHECKING:
@@ -14,6 +15,8 @@ if TYPE_CHECKING:
 
 _kept: list[tuple[AnyScene, tuple[str, int, int], "Tessellated"]] = []
 """The last scenes that were cut: scenes never change."""
+_deformed_scenes: list[tuple[Scene, str, Scene]] = []
+"""The last scenes that were deformed, with the method."""
 KEPT = 4
 
 
@@ -25,7 +28,23 @@ def before_matrices(scene: AnyScene, settings: Settings) -> AnyScene:
     ValueError
         Where curves would be cut into too many pieces.
     """
-    return tessellated(scene, settings).scene if scene.makes_positions else scene
+    if not scene.makes_positions:
+        return scene
+    if isinstance(scene, Scene) and any(mesh.deformation is not None for mesh in scene.meshes):
+        scene = _deformed(scene, settings)
+    return tessellated(scene, settings).scene if has_curves(scene) else scene
+
+
+def _deformed(scene: Scene, settings: Settings) -> Scene:
+    """Return a scene with its meshes deformed; those of the last few are kept."""
+    for of_scene, skinning, made in _deformed_scenes:
+        if skinning == settings.skinning and (of_scene is scene or made is scene):
+            return made
+    from core.deformation.deform import deformed  # Only scenes of bones and shapes wait for it.
+
+    made = deformed(scene, settings)
+    _deformed_scenes[:] = [*_deformed_scenes[1 - KEPT :], (scene, settings.skinning, made)]
+    return made
 
 
 def tessellated(scene: AnyScene, settings: Settings) -> "Tessellated":

@@ -6,6 +6,7 @@ by itself; a better one is added here.
 
 from core.antialiasing.measured import ANTIALIASING, SHADING, TEXTURE_FILTER
 from core.coverage.measured import COVERAGE, FILL, ORIENTATION, POLYGON_CLIPPING, POLYGON_FILL
+from core.deformation.measured import SKINNING
 from core.depth.measured import DEPTH_STEPS
 from core.depth.measured_early import DEPTH_TEST_TIME
 from core.depth.measured_order import CLIPPING, CULL, DEPTH, VISIBILITY
@@ -43,6 +44,7 @@ OWN = (
     CULL,
     DEPTH_TEST_TIME,
     HIERARCHY,
+    SKINNING,
     PRESENTATION,
     FLUSHING,
     TESSELLATION,

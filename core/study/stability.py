@@ -4,6 +4,7 @@ from core.antialiasing.measured import THIN
 from core.clipping import measured as clipping
 from core.coverage import measured_pixel, measured_sums, measured_triangles
 from core.culling import measured as culling
+from core.deformation.measured import COLLAPSE, WRAPPER
 from core.depth.measured import BY_DISTANCE, BY_RANGE, ORTHOGRAPHIC
 from core.depth.measured_order import CIRCLE, LAYERS
 from core.framebuffer.measured import BLENDING
@@ -35,6 +36,8 @@ COVERAGE_EXPERIMENTS: tuple[Experiment, ...] = (
 
 
 FRAGMENT_EXPERIMENTS: tuple[Experiment, ...] = (
+    COLLAPSE,
+    WRAPPER,
     AFFINE,
     MINIFICATION,
     HIGHLIGHT,

@@ -6,9 +6,11 @@ from dataclasses import replace
 import numpy as np
 
 from core.culling.culling import KEPT
+from core.families import has_bones, has_curves
 from core.records.arrays import Flags, Integers
 from core.records.listing import RETURN, Operation, listing
 from core.records.steps import Steps, ends_of
+from core.scene import Scene
 from core.stages.declared import STAGES
 from core.stages.fragment_color import has_program
 from core.trace import Trace
@@ -105,12 +107,18 @@ def trace_transform(source: TraceSource) -> StageTrace:
 
         return trace_vertex_shader(source)
     found = trace_spaces(source)
-    if source.scene.makes_positions:
+    if has_curves(source.scene):
         from core.tessellation.traced import tessellation_rows  # Only scenes of curves wait for it.
 
         found = in_front(found, source, tessellation_rows)
         given = dict.fromkeys(("mix", "mix-row", "mix-column"), ("s", "t"))
         found = replace(found, method=f"tessellation={source.settings.tessellation}", given=given)
+    if isinstance(source.scene, Scene) and any(mesh.rest is not None for mesh in source.scene.meshes):
+        from core.deformation.traced import deformation_rows  # Only scenes of bones and shapes wait for it.
+
+        found = in_front(found, source, deformation_rows)
+        if has_bones(source.scene):
+            found = replace(found, method=f"skinning={source.settings.skinning}")
     return found
 
 

@@ -3,6 +3,7 @@
 from difflib import get_close_matches
 
 from lessons.mistakes import (
+    bones,
     boxes,
     clipping,
     coverage,
@@ -45,6 +46,7 @@ RULES: dict[str, WrongRule] = {
     for module in (
         transforms,
         curves,
+        bones,
         clipping,
         scan_conversion,
         surfaces,

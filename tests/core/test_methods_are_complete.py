@@ -34,6 +34,7 @@ SHOWN_BY = {
     "object_culling": SCENES["lit"],
     "hierarchy": SCENES["lit"],
     "tessellation": SCENES["curve"],
+    "skinning": SCENES["bent-bar"],
     "polygon_clipping": POLYGON,
     "polygon_fill": POLYGON,
 }

@@ -5,6 +5,7 @@ import pytest
 
 from core import Settings, render, trace
 from lessons.mistakes import (
+    bones,
     boxes,
     clipping,
     coverage,
@@ -47,7 +48,18 @@ def test_a_wrong_formula_shows_in_one_place_and_hides_in_another(rule: WrongRule
 
 def test_names_are_unique_and_unknown_ones_refused() -> None:
     runs = {boxes, clipping, coverage, depths, planes, scan_conversion, fragments, lines, textures, shadows}
-    formulas = {boxes, curves, cutting, depths, planes, scan_conversion, scan_lines, shadows, smoothing}
+    formulas = {
+        bones,
+        boxes,
+        curves,
+        cutting,
+        depths,
+        planes,
+        scan_conversion,
+        scan_lines,
+        shadows,
+        smoothing,
+    }
     formulas |= {surfaces, textures, transforms, visible_work, presenting}
     count = sum(len(module.TWINS) for module in runs) + sum(len(module.RULES) for module in formulas)
     both = SHELF.keys() & RULES.keys()

@@ -74,7 +74,7 @@ def test_the_catalogue():
         "line-strip", "points", "triangle-strip", "polygon", "polygon-holes", "weiler-atherton", "connecting-edges",
         "pentagram", "near-plane", "intersecting", "crossing-glass", "circle-of-bars", "depth-table",
         "four-layers", "two-buffers", "z-fighting", "textured-floor",
-        "lit-floor", "box-in-light", "cube", "boxes-around", "two-boxes",
+        "lit-floor", "box-in-light", "cube", "boxes-around", "two-boxes", "bent-bar", "twisted-tube", "blended-bar",
         "curve", "curve-in-depth", "hill", "cracked-patches", "teapot", "sphere", "torus", "knot",
     )  # fmt: skip
     for scene in CATALOGUE:

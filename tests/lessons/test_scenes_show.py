@@ -128,6 +128,11 @@ CLAIMS = {
     "two-boxes": lambda s: (
         not unlike(s, visibility="z-buffer") and {"tree-missed", "tree-leaf"} < s.kinds("depth")
     ),
+    "bent-bar": lambda s: (
+        unlike(s, skinning="dual-quaternion") > 20 and {"bone", "skin"} < s.kinds("transform")
+    ),
+    "twisted-tube": lambda s: len(s.pixels(skinning="dual-quaternion")) > len(s.pixels()) + 50,
+    "blended-bar": lambda s: "blend" in s.kinds("transform") and not unlike(s, skinning="dual-quaternion"),
     "curve": lambda s: s.document.triangle_count == 6 and len(s.column("transform", "level")) > 7 * 6,
     "curve-in-depth": lambda s: set(s.document.scene.curves.control[0, :, 3]) == {1, 2, 4},
     "hill": lambda s: s.document.triangle_count == 72 and "normal" in s.kinds("transform"),

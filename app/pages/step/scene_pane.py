@@ -16,9 +16,10 @@ from core.depth.whole_depths import table_scene
 from core.families import WholeNumber
 from core.methods import table
 from core.records.arrays import Floats
+from core.records.deformations import Skin
 from core.records.depth_table import DepthTable, depth_of_text, depths_of_text
 from core.records.words import nouns
-from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, PointLight, Scene
+from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Mesh, PointLight, Scene
 from core.settings import DEFAULTS, FAMILIES, FIELDS, WHOLE_NUMBERS, no_effect
 from core.stages.declared import DECLARED, stage_of
 from core.stages.needs import refusal
@@ -151,7 +152,23 @@ def _mesh_outline(scene: Scene) -> list[OutlineGroup]:
             for name in ("ambient", "diffuse", "specular", "shininess")
         ]
         groups.append(OutlineGroup(f"mesh/{index}", mesh.name, tuple(rows), is_open=False))
+        groups += _deformation_outline(index, mesh)
     return groups
+
+
+def _deformation_outline(index: int, mesh: Mesh) -> list[OutlineGroup]:
+    """Return the angles of the bones of a mesh, or the weights of the shapes that it is blended with."""
+    held = mesh.deformation
+    if held is None:
+        return []
+    kind, label, name, reach, numbers = "shape", "shape {}", "weight", 2, held.weights
+    if isinstance(held, Skin):
+        kind, label, name, reach, numbers = "bone", "bone {}, °", "angle", 360, np.degrees(held.angles)
+    rows = [
+        OutlineRow(f"{kind}/{index}/{k}", label.format(k), (OutlineValue(name, number, -reach, reach),))
+        for k, number in enumerate(numbers.tolist())
+    ]
+    return [OutlineGroup(f"{kind}/{index}", f"{kind.capitalize()}s of {mesh.name}", tuple(rows))]
 
 
 # The left side: what is in the scene, and which method runs at each stage.

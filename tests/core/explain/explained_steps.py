@@ -179,6 +179,9 @@ def traces() -> dict[str, dict[str, Trace]]:
     for name in table.names("shadow")[1:]:
         shaded = Settings(shadow=name, map_size=16)
         windows[f"shadow {name}"] = trace(make_scene("box-in-light"), shaded, 0, (22, 26, 8, 1))
+    for name in table.names("skinning"):
+        windows[f"bent {name}"] = trace(make_scene("bent-bar"), Settings(skinning=name), 7, (0, 0, *WINDOW))
+    windows["blended"] = trace(make_scene("blended-bar"), Settings(), 7, (0, 0, *WINDOW))
     for name in table.names("tessellation"):
         cut = Settings(tessellation=name, segments=3, curve_tolerance=64)
         for scene in ("curve-in-depth", "hill"):

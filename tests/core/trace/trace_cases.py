@@ -85,6 +85,8 @@ def textured_clip_scene() -> ClipScene:
 
 LEFT_OUT = (
     "crossing-glass",
+    "twisted-tube",
+    "blended-bar",
     "curve-in-depth",
     "hill",
     "cracked-patches",

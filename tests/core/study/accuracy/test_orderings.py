@@ -352,3 +352,12 @@ def test_flush() -> None:
         "at-once": 1,
     }
     assert {point.errors["wrong-bytes"] for point in ways.values()} == {0}
+
+
+def test_skinning() -> None:
+    # cos(45 degrees) of the width is left where both bones have half of the weight, or of the radius after a twist.
+    for work in ("bend", "twist"):
+        found = run("skinning", work, rings=16, angle=90)
+        assert found["linear"].errors["lost-width"] == pytest.approx(1e6 * (1 - 0.5**0.5))
+        assert found["dual-quaternion"].errors["lost-width"] == pytest.approx(0, abs=1e-6)
+        assert found["linear"].counts["vertices"] == 17 * 16

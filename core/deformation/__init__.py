@@ -1,0 +1,1 @@
+"""Deformation of meshes before the matrices: blending of shapes, and bones."""
