@@ -165,7 +165,13 @@ def make_tube(assignment: Assignment) -> WidthTask:
 
 _DIALS = (
     Axis(
-        "rings", "Rings of 16 vertices", "", (16, 32, 64, 128, 256, 512, 1024), True, default=64, is_cost=True
+        "rings",
+        "Rings of 16 vertices",
+        "",
+        (4, 16, 32, 64, 128, 256, 512, 1024),
+        True,
+        default=64,
+        is_cost=True,
     ),
     Axis("angle", "Angle of the joint", "degrees", ANGLES, default=90),
 )
