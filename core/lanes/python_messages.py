@@ -59,6 +59,38 @@ def open_bracket(text: str) -> tuple[Place, str] | None:
     return open_places[-1] if open_places else None
 
 
+_MEANT = (
+    ("", "unmatched|does not match", "this bracket was never opened"),
+    ("", "unterminated|EOL while", "the quotation mark is never closed"),
+    (r"&&|\|\|", "", "write and, or"),
+    (r"!(?!=)", "", "write not"),
+    (r"\+\+|--", "", "write += 1 or -= 1"),
+    (r"=>|=<", "", "write >= or <="),
+    (r"[<>=!]\s+=", "", "write <=, >=, == and != without a blank between the two signs"),
+    (r"\w ?:=", "", "write = to store a value"),
+    (
+        r"^(int|float|double|bool|var|let|const|auto)\s+\w",
+        "",
+        "a variable has no type in front of it: it begins with name = value",
+    ),
+    (r"\.\.", "", "write range(first, end) for numbers one after the other"),
+    ("", "expected 'else'", "else is missing: one value if a condition else another"),
+    (r"<>", "", "write != for unequal"),
+    (r"^(if|while|elif)\b.*(?<![=<>!])=(?!=)", "==", "= stores a value; to compare write =="),
+    ("", "expected an indented block", "the lines that belong to the line above must stand further right"),
+    ("", "indent", "this line begins further left or right than the others of its block"),
+    ("", "cannot assign", "the left side of = must be a name, or several"),
+    (r"[;{}]", "", "no ; { } here: a line ends by itself, and blocks are indented"),
+    (
+        "",
+        "leading zeros|invalid decimal literal",
+        "this cannot be read: names begin with a letter, numbers without a 0 in front",
+    ),
+    ("", "invalid character|non-printable", "this character is not in the language of listings"),
+)
+"""Pattern of a line, or of Python's message, and what is said where the first one of them is found."""
+
+
 def problem_of(error: SyntaxError, text: str) -> Problem:
     """Return what is said of a text that Python does not read."""
     lines = text.split("\n")
@@ -73,46 +105,9 @@ def problem_of(error: SyntaxError, text: str) -> Problem:
         return Problem(Place(number, len(typed.rstrip()) + 1), "a colon is missing at the end of this line")
     if bracket is not None:
         return Problem(bracket[0], f"the bracket {bracket[1]} is never closed")
-    if "unmatched" in said or re.search(r"does not match", said):
-        return Problem(place, "this bracket was never opened")
-    if "unterminated" in said or "EOL while" in said:
-        return Problem(place, "the quotation mark is never closed")
-    if "&&" in line or "||" in line:
-        return Problem(place, "write and, or")
-    if re.search(r"!(?!=)", line):
-        return Problem(place, "write not")
-    if "++" in line or "--" in line:
-        return Problem(place, "write += 1 or -= 1")
-    if re.search(r"=>|=<", line):
-        return Problem(place, "write >= or <=")
-    if re.search(r"[<>=!]\s+=", line):
-        return Problem(place, "write <=, >=, == and != without a blank between the two signs")
-    if re.search(r"\w:=|\w :=", line):
-        return Problem(place, "write = to store a value")
-    if re.match(r"(int|float|double|bool|var|let|const|auto)\s+\w", line):
-        return Problem(place, "a variable has no type in front of it: it begins with name = value")
-    if ".." in line:
-        return Problem(place, "write range(first, end) for numbers one after the other")
-    if "expected 'else'" in said:
-        return Problem(place, "else is missing: one value if a condition else another")
-    if re.search(r"<>", line):
-        return Problem(place, "write != for unequal")
-    if re.match(r"(if|while|elif)\b", line) and re.search(r"(?<![=<>!])=(?!=)", line):
-        return Problem(place, "= stores a value; to compare write ==")
-    if "==" in said:
-        return Problem(place, "= stores a value; to compare write ==")
-    if "expected an indented block" in said:
-        return Problem(place, "the lines that belong to the line above must stand further right")
-    if "indent" in said:
-        return Problem(place, "this line begins further left or right than the others of its block")
-    if "cannot assign" in said:
-        return Problem(place, "the left side of = must be a name, or several")
-    if re.search(r"[;{}]", line):
-        return Problem(place, "no ; { } here: a line ends by itself, and blocks are indented")
-    if "leading zeros" in said or "invalid decimal literal" in said:
-        return Problem(place, "this cannot be read: names begin with a letter, numbers without a 0 in front")
-    if "invalid character" in said or "non-printable" in said:
-        return Problem(place, "this character is not in the language of listings")
+    for in_line, in_message, meant in _MEANT:
+        if (in_line and re.search(in_line, line)) or (in_message and re.search(in_message, said)):
+            return Problem(place, meant)
     if re.search(r"[-+*/%=<>,]\s*:?$|\b(and|or|not|in)\s*:?$", line):
         return Problem(Place(number, len(typed.rstrip()) + 1), "something is missing at the end of this line")
     if "perhaps you forgot a comma" in said.lower() or _begins_a_value(typed, place.column):

@@ -378,5 +378,5 @@ def _buffers(
         tracks.append(track("specular light", columns["specular_light"]))
     for name, title in SHADOW_BUFFERS.items():
         if name in columns:
-            tracks.append(track(title, columns[name].reshape(len(rows), -1)[:, -1], "scalar"))
+            tracks.append(track(title, np.atleast_2d(columns[name].T)[-1], "scalar"))
     return tuple(tracks)

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from core.records.arrays import Integers
 from core.records.steps import RowOrder, ends_of
 from core.trace.stage_trace import StageTrace
 
@@ -17,24 +18,28 @@ def in_order(found: StageTrace, order: RowOrder) -> StageTrace:
     each row has the same numbers as before, and the buffers end with the same values, bit for bit.
     """
     keys = order.keys(found.pixel)
-    rows = np.lexsort(keys[::-1])
+    within = keys[1] if order.is_by_pixel else found.triangle
+    return replace(in_rows(found, np.lexsort(keys[::-1]), keys[0], within), order=order)
+
+
+def in_rows(found: StageTrace, rows: Integers, outer: Integers, within: Integers) -> StageTrace:
+    """Return a trace whose rows stand in the order of ``rows`` (R,).
+
+    Parameters
+    ----------
+    outer, within : (R,) int64
+        What a step of the levels TRIANGLE and GROUP is about, by the rows as they stood.
+    """
     place = np.empty_like(rows)
     place[rows] = np.arange(len(rows))
-    within = keys[1] if order.is_by_pixel else found.triangle
-    outer = keys[0][rows]
-    steps = replace(
-        found.steps,
-        kind=found.steps.kind[rows],
-        triangle_ends=ends_of(outer),
-        group_ends=ends_of(outer, within[rows]),
-    )
+    outer = outer[rows]
+    ends = ends_of(outer), ends_of(outer, within[rows])
     return replace(
         found,
-        steps=steps,
+        steps=replace(found.steps, kind=found.steps.kind[rows], triangle_ends=ends[0], group_ends=ends[1]),
         columns={name: column[rows] for name, column in found.columns.items()},
         triangle=found.triangle[rows],
         pixel=found.pixel[rows],
         marks={name: flags[rows] for name, flags in found.marks.items()},
         buffers=tuple(track.moved(place) for track in found.buffers),
-        order=order,
     )

@@ -6,7 +6,7 @@ import numpy as np
 
 from core.records.arrays import Integers
 from core.records.listing import Operation, listing
-from core.records.steps import ends_of
+from core.trace.row_order import in_rows
 from core.trace.source import TraceSource
 from core.trace.stage_trace import InsertedRows, StageTrace, insert_rows
 from core.visibility.rays_in_tree import BEHIND, MISSED, OPENED, TreeWalk, Visits, meet_box, slabs, walk_tree
@@ -62,30 +62,10 @@ def with_boxes(source: TraceSource, found: StageTrace, walk: TreeWalk) -> StageT
         kind=np.where(is_hidden, len(kinds) - 1, found.steps.kind),
         operations={**found.steps.operations, **HIDDEN},
     )
-    hits = _in_rows(replace(found, steps=steps, columns={**found.columns, "node": hidden}), rows)
+    hits = replace(found, steps=steps, columns={**found.columns, "node": hidden})
+    hits = in_rows(hits, rows, found.triangle, found.triangle)
     boxes = _box_rows(source, walk, walk.visits, last[rows])
     return insert_rows(hits, np.zeros(count, np.int64), boxes)
-
-
-def _in_rows(found: StageTrace, rows: Integers) -> StageTrace:
-    """Return a trace whose rows stand in the order of ``rows`` (R,)."""
-    place = np.empty_like(rows)
-    place[rows] = np.arange(len(rows))
-    triangle = found.triangle[rows]
-    return replace(
-        found,
-        steps=replace(
-            found.steps,
-            kind=found.steps.kind[rows],
-            triangle_ends=ends_of(triangle),
-            group_ends=ends_of(triangle),
-        ),
-        columns={name: column[rows] for name, column in found.columns.items()},
-        triangle=triangle,
-        pixel=found.pixel[rows],
-        marks={name: flags[rows] for name, flags in found.marks.items()},
-        buffers=tuple(track.moved(place) for track in found.buffers),
-    )
 
 
 def _box_rows(source: TraceSource, walk: TreeWalk, visits: Visits, times: Integers) -> InsertedRows:

@@ -39,6 +39,7 @@ UNUSED = (
     "core.study",
     "core.trace.source",
     "core.trace.tracers",
+    "core.trees.bounding_volumes",
     "core.visibility.ray_casting",
     "core.pixel_history",
 )
@@ -80,6 +81,14 @@ def test_a_first_picture_of_mixed_colours_waits_for_no_other_pipeline() -> None:
     route, *imported = run_fresh(code)
     assert route == "corners"
     assert not {"core.pipeline", "core.framebuffer.blending", "numpy.ma"} & set(imported)
+
+
+def test_a_trace_loads_the_method_of_visibility_that_it_uses() -> None:
+    code = "import sys\nfrom core import STAGES, trace\nfrom lessons.scenes import make_scene\n"
+    code += "run = trace(make_scene('cube'), region=(300, 200, 2, 2))\nfor name in STAGES: run.stage(name)\n"
+    imported = run_fresh(code + "print(*sys.modules, sep='\\n')")
+    found = {name for name in imported if name.startswith(("core.trees.", "core.visibility."))}
+    assert found == {"core.visibility.exact_case", "core.visibility.painters"}
 
 
 @pytest.mark.parametrize("name", UNUSED)

@@ -146,7 +146,8 @@ def test_most_listings_of_the_program_are_in_the_language():
         except Problem as problem:
             refused[listed.name] = problem.sentence
     assert len(read) >= 85
-    assert all("language" in reason or "called by its name" in reason for reason in refused.values()), refused
+    known = ("language", "called by its name", "nothing can be stored here")
+    assert all(any(words in reason for words in known) for reason in refused.values()), refused
 
 
 STEPS = """
