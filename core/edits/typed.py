@@ -94,6 +94,7 @@ def _compiled(of: Callable[..., Any], text: str) -> Program:
     return compile_listing(text, constants, helpers)
 
 
+@lru_cache(maxsize=256)
 def parameters_of(function: Callable[..., Any]) -> tuple[str, ...]:
     """Return the names of a function's parameters."""
     return tuple(signature(function).parameters)

@@ -225,7 +225,7 @@ def merged(base: StatePart, step: StatePart) -> StatePart:
         given.pop("operation", None)
     given |= {name: getattr(step, name) for name in step.model_fields_set}
     given["settings"] = {**base.settings, **step.settings}
-    return StatePart.model_construct(_fields_set=set(given), **given)
+    return StatePart().model_copy(update=given)
 
 
 class States:

@@ -1,5 +1,6 @@
 """Every key of the table does something that can be seen."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,10 +11,12 @@ from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 from app.files.file_dialogs import SaveDialog
-from app.session.document import Document
+from app.session.document import Document, open_document
 from app.window.actions import ACTIONS
 from app.window.main_window import MainWindow
+from core import Settings
 from core.records.steps import Level
+from lessons.scenes import make_scene
 from widgets.basics.theme import current_theme
 
 pytestmark = pytest.mark.shared_window
@@ -86,6 +89,10 @@ def prepare(window: MainWindow, name: str) -> None:
         window.appearance.set_text_size(110)
     elif name == "whole_picture":
         page.grid.zoom_by(3.0)
+    elif name == "open_pass":
+        shadowed = Settings(shadow="map", map_size=16)
+        scene = replace(make_scene("box-in-light"), size=(32, 24))
+        session.open(open_document(scene, "Box in the light", settings=shadowed))
     elif name == "copy_view":
         QGuiApplication.clipboard().clear()
 
