@@ -61,9 +61,10 @@ def explaining_run(question: Question, response: Response) -> StepRequest | None
 def is_stepped(question: Question, mistake: str) -> bool:
     """Return whether the run with a mistake can be stepped beside the right one.
 
-    A question without a scene has the one that shows the mistake.
+    A question without a scene has the one that shows the mistake; a listing that was typed is run itself.
     """
-    has_scene = question.draft.scene is None or isinstance(question.draft.scene, ClipScene)
+    scene, is_typed = question.draft.scene, isinstance(question.draft.answer, CodeAnswer)
+    has_scene = isinstance(scene, ClipScene) or (scene is None and not is_typed)
     return has_scene and mistake in SHELF and SHELF[mistake].is_run
 
 
