@@ -313,23 +313,33 @@ def place_in(attempts: Sequence[Attempt], lesson: Lesson) -> int:
 
 
 def next_place(attempts: Sequence[Attempt], course: Course) -> Place | None:
-    """Return where a user goes on: in the lesson that was tried last, or at the start of the one after it.
+    """Return where a user goes on: in the lesson that was tried last, or else in the first that is not finished.
 
     ``None``: there are no lessons, or all are finished.
     """
-    lessons = list(course.lessons.values())
     last = next((attempt for attempt in reversed(attempts) if is_of_lesson(attempt)), None)
-    names = {lesson.name: lesson for lesson in lessons}
-    latest = None if last is None else names.get(last.template.split("/")[1])
-    if latest is not None and place_in(attempts, latest) < len(latest.steps):
-        return Place(latest, place_in(attempts, latest))
-    following = None if latest is None else course.after(latest)
-    for lesson in ([] if following is None else [following], lessons):
-        for each in lesson:
-            step = place_in(attempts, each)
-            if step < len(each.steps):
-                return Place(each, step)
+    latest = None if last is None else course.lessons.get(last.template.split("/")[1])
+    for each in [*([] if latest is None else [latest]), *course.lessons.values()]:
+        step = place_in(attempts, each)
+        if step < len(each.steps):
+            return Place(each, step)
     return None
+
+
+def recall_for(attempts: Sequence[Attempt], course: Course, lesson: Lesson) -> str:
+    """Return the exercise that comes before a lesson: its own, or an earlier one's, of a lesson that was finished.
+
+    Empty: none of them was. A lesson that is not in the course asks its own.
+    """
+    own = lesson.part.recall or ""
+    if not own or course.lessons.get(lesson.name) is not lesson:
+        return own
+    lessons = list(course.lessons.values())
+    for each in [lesson, *reversed(lessons[: lessons.index(lesson)])]:
+        about = course.recalled(each)
+        if about is not None and place_in(attempts, about) == len(about.steps):
+            return each.part.recall or ""
+    return ""
 
 
 def _tries(attempts: Sequence[Attempt], lesson: Lesson) -> list[tuple[Attempt, int]]:

@@ -214,6 +214,13 @@ class Course:
         place = names.index(lesson.name) + 1 if lesson.name in self.lessons else len(names)
         return self.lessons[names[place]] if place < len(names) else None
 
+    def recalled(self, lesson: Lesson) -> Lesson | None:
+        """Return the lesson that the exercise before a lesson is about; ``None``: none is known."""
+        if lesson.part.recall_of is not None:
+            return self.lessons.get(lesson.part.recall_of)
+        others = (each for each in self.lessons.values() if each is not lesson)
+        return next((each for each in others if lesson.part.recall in each.part.exercises), None)
+
     @property
     def by_stage(self) -> dict[str, list[Lesson]]:
         """All lessons under the stage in which each begins, in the order of the stages."""

@@ -287,7 +287,9 @@ class LessonPart(Part):
     answers: Line | None = None
     """The printed question of a lecture that one can now answer."""
     recall: Name | None = None
-    """An exercise of an earlier lesson that is asked before the first step."""
+    """An exercise of an earlier lesson that is asked before the first step, of who has finished that lesson."""
+    recall_of: Name | None = None
+    """The lesson that it is about; left out: the one that closes with it."""
     exercises: list[Name] = Field(default_factory=list, max_length=2)
     """What closes the lesson."""
     next: NextPart | None = None

@@ -44,6 +44,9 @@ def validate(lesson: Lesson, names: Collection[str]) -> None:
     _expect(
         lesson, ("recall",), recall is None or recall in TEMPLATES, f"expected an exercise, got {recall!r}"
     )
+    about = lesson.part.recall_of
+    is_known = about is None or (recall is not None and about in names)
+    _expect(lesson, ("recall_of",), is_known, f"expected the lesson of a recall, got {about!r}")
     if following is not None:
         is_there = following.lesson in names
         _expect(lesson, ("next", "lesson"), is_there, f"expected a lesson, got {following.lesson!r}")

@@ -167,6 +167,9 @@ class LessonView(QWidget):
         self.lead = text_label("", self, role="muted", wraps=True)
         self.text = text_label("", self, wraps=True, is_selectable=True, name="What this step is about")
         self.task_icon = QLabel(self)
+        policy = self.task_icon.sizePolicy()
+        policy.setRetainSizeWhenHidden(True)
+        self.task_icon.setSizePolicy(policy)
         self.task = text_label("", self, role="strong", wraps=True, name="What is to be done")
         self.note = text_label("", self, role="muted", wraps=True)
         self.check_button = self._button("Check", "Check the answer (Return)", self.check_requested)
@@ -201,8 +204,9 @@ class LessonView(QWidget):
         head.addWidget(self.title, 1)
         head.addWidget(self.place, 0, Qt.AlignmentFlag.AlignTop)
         head.addWidget(self.close_button, 0, Qt.AlignmentFlag.AlignTop)
-        task.addWidget(self.task_icon, 0, Qt.AlignmentFlag.AlignTop)
         task.addWidget(self.task, 1)
+        # Its room is kept, or a task that is done might take one line more.
+        task.addWidget(self.task_icon, 0, Qt.AlignmentFlag.AlignTop)
         result.addWidget(self._icon, 0, Qt.AlignmentFlag.AlignTop)
         result.addWidget(self.feedback, 1)
         checks, ways = row_layout(spacing=8), FlowLayout(spacing=8)
@@ -315,11 +319,18 @@ class LessonView(QWidget):
     def set_asking(self, is_asking: bool) -> None:
         """Take an answer, or only show what was given."""
         self._is_asking = is_asking
+        if not is_asking:
+            self._keep_height()
         self.check_button.setVisible(is_asking)
         self._show_next_press()
         self.note.setVisible(is_asking)
         if self.answer is not None:
             self.answer.set_open(is_asking)
+
+    def _keep_height(self) -> None:
+        """Let the form get no lower once it was checked, or Next would move under the pointer."""
+        if self.answer is not None and self.answer.isVisible():
+            self.answer.setMinimumHeight(self.answer.height())
 
     def offer_solution(self, is_offered: bool) -> None:
         """Offer to reveal how the task is done, in front of a class."""
@@ -351,6 +362,8 @@ class LessonView(QWidget):
     def show_feedback(self, feedback: LessonFeedback | None) -> None:
         """Show what came of the task, and say it; ``None``: nothing yet."""
         self._feedback = feedback
+        if feedback is not None:
+            self._keep_height()
         self.feedback.setVisible(feedback is not None)
         self._follow_theme()
         if feedback is not None:
@@ -380,6 +393,7 @@ class LessonView(QWidget):
         record = self._record
         is_right = self._feedback is not None and self._feedback.is_right is True
         is_done = record is not None and bool(record.task) and (record.is_done or is_right)
+        self.task_icon.setFixedWidth(theme.text_px)
         self.task_icon.setVisible(is_done)
         if is_done:
             # No higher than the line beside it, or the buttons below would move.

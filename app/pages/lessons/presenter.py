@@ -221,7 +221,8 @@ class LessonPresenter(QObject):
         page.side.show_lesson(walk.task.scroll)
         page.column.show_card(False)
         page.timeline.takes_leaps = False
-        walk.begin(found.course, found.lesson, found.step, self._standings(found))
+        recall = found.progress.recall if self._is_kept else found.lesson.part.recall or ""
+        walk.begin(found.course, found.lesson, found.step, self._standings(found), recall)
 
     def _standings(self, found: _Found) -> "Sequence[Standing]":
         """Return how far one is with a lesson: in front of a class nothing is kept but what was shown since."""
@@ -245,12 +246,16 @@ class LessonPresenter(QObject):
         walk.view.close_requested.connect(self.close)
         return walk
 
+    @property
+    def _is_kept(self) -> bool:
+        """Whether somebody learns for himself."""
+        return self.keeps_attempts and not self._page.is_presenting
+
     @Slot(int, float, object)
     def _keep(self, number: int, score: float, judged: "JudgedAnswer | None") -> None:
-        """Keep what became of a step; in front of a class nobody learns for himself."""
+        """Keep what became of a step."""
         walk = self.walk
-        is_kept = self.keeps_attempts and not self._page.is_presenting
-        if walk is not None and walk.lesson is not None and is_kept:
+        if walk is not None and walk.lesson is not None and self._is_kept:
             self.attempts.keep(walk.lesson, number, score, judged)
 
     @Slot(object)
@@ -393,4 +398,4 @@ def _found(wanted: "Lesson | str | Path", step: int | None) -> _Found:
         lesson = wanted
     if lesson.path.parent != FOLDER:
         validate(lesson, {*course.lessons, lesson.name})
-    return _Found(course, lesson, step, progress_in(lesson))
+    return _Found(course, lesson, step, progress_in(lesson, course))

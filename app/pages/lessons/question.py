@@ -27,8 +27,16 @@ from app.pages.exercises.answers import (
 from app.pages.exercises.feedback import not_checked_text, show_tried
 from core.lanes.run import bounded
 from core.records.cells import Marks
-from lessons.attempts.record import DEFAULT_USER, Attempt, attempt_of, begin_anew, lesson_attempt, standings
-from lessons.course.catalogue import Lesson
+from lessons.attempts.record import (
+    DEFAULT_USER,
+    Attempt,
+    attempt_of,
+    begin_anew,
+    lesson_attempt,
+    recall_for,
+    standings,
+)
+from lessons.course.catalogue import Course, Lesson
 from lessons.course.tasks import Outcome, outcome_of
 from lessons.exercises.answers.answer import NotCheckedError, Response
 from lessons.exercises.answers.listings import CannotRunError, CodeAnswer
@@ -306,21 +314,24 @@ class LessonProgress:
 
     user: str
     standings: tuple[Standing, ...]
+    recall: str
+    """Name of the exercise that comes before the first step; empty: none does."""
     trouble: str = ""
     """Why it cannot be read, as a sentence; empty: all is well."""
 
 
-def progress_in(lesson: Lesson) -> LessonProgress:
+def progress_in(lesson: Lesson, course: Course) -> LessonProgress:
     """Return how far the chosen user is with a lesson; who cannot be read begins."""
     user = DEFAULT_USER
     # Where nobody has been chosen there is no file; the Exercises page says what is wrong with a broken one.
     with suppress(OSError, ValueError):
         user = read_answers().user
     try:
-        found = standings(attempt_file().attempts(user), lesson)
+        attempts = attempt_file().attempts(user)
     except OSError as problem:
-        return LessonProgress(user, (Standing.OPEN,) * len(lesson.steps), f"{problem}.")
-    return LessonProgress(user, tuple(Standing(each.value) for each in found))
+        return LessonProgress(user, (Standing.OPEN,) * len(lesson.steps), "", f"{problem}.")
+    found = tuple(Standing(each.value) for each in standings(attempts, lesson))
+    return LessonProgress(user, found, recall_for(attempts, course, lesson))
 
 
 class LessonAttempts(QObject):

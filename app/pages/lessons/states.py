@@ -84,7 +84,6 @@ def step_record(
         lead=paragraphs(lesson.question) if number == 0 else "",
         task=paragraphs(step.task) or TASKS[step.kind],
         links=((step.show, OPENS[step.show.partition("/")[0]]),) if step.show else (),
-        has_previous=number > 0 or lesson.part.recall is not None,
         was_done=was_done and bool(TASKS[step.kind]),
     )
 
@@ -94,9 +93,9 @@ def recall_record(
 ) -> LessonStepRecord:
     """Return the exercise of an earlier lesson that is asked before the first step."""
     draft, template = question.draft, question.template
-    others = (each for each in course.lessons.values() if each is not lesson)
-    closed = next((each.title for each in others if template.name in each.part.exercises), "")
-    whence = f"From the lesson “{closed}”" if closed else f"From the exercise “{template.title}”"
+    asking = (each for each in course.lessons.values() if each.part.recall == template.name)
+    about = course.recalled(lesson if lesson.part.recall == template.name else next(asking, lesson))
+    whence = f"From the lesson “{about.title}”" if about else f"From the exercise “{template.title}”"
     return LessonStepRecord(
         title=lesson.title,
         text="\n".join(filter(None, (draft.text, numbers_of(draft)))),

@@ -57,8 +57,8 @@ class LessonWalk(QObject):
         """Where the step began."""
         self._was_done = False
         """Whether the step had been done when it was opened."""
-        self._seed = 0
-        """Of the exercise that comes first."""
+        self._recall, self._seed = "", 0
+        """The exercise that comes first, and its seed; empty: none does."""
         self.view.back_requested.connect(self.back)
         self.view.next_requested.connect(self.next)
         self.view.return_requested.connect(self.return_here)
@@ -78,10 +78,16 @@ class LessonWalk(QObject):
         self.task.stop()
 
     def begin(
-        self, course: Course, lesson: Lesson, number: int | None, standings: Sequence[Standing]
+        self,
+        course: Course,
+        lesson: Lesson,
+        number: int | None,
+        standings: Sequence[Standing],
+        recall: str,
     ) -> None:
-        """Open a lesson at one of its steps; ``None``: at its beginning."""
+        """Open a lesson at one of its steps; ``None``: at its beginning, which is the exercise ``recall`` if any."""
         self.course, self.lesson, self.standings = course, lesson, list(standings)
+        self._recall = recall
         self._made = States(lesson)
         self._seed = SystemRandom().randrange(SEEDS)
         self.states.forget()
@@ -90,7 +96,8 @@ class LessonWalk(QObject):
     def begin_anew(self) -> None:
         """Go to the beginning, with nothing done."""
         if self.lesson is not None:
-            self.begin(self.course, self.lesson, None, [Standing.OPEN] * len(self.lesson.steps))
+            standings = [Standing.OPEN] * len(self.lesson.steps)
+            self.begin(self.course, self.lesson, None, standings, self._recall)
 
     def end(self) -> None:
         """Leave the lesson; what is open stays."""
@@ -117,7 +124,7 @@ class LessonWalk(QObject):
     @property
     def first(self) -> int:
         """The number of what a lesson begins with."""
-        return RECALL if self.lesson is not None and self.lesson.part.recall is not None else 0
+        return RECALL if self._recall else 0
 
     @Slot(int)
     def go(self, number: int) -> None:
@@ -153,8 +160,8 @@ class LessonWalk(QObject):
     def _wanted(self, lesson: Lesson, number: int) -> Wanted:
         """Return the state of a step, and what it asks; the end keeps the last step's, or what it revealed."""
         states = self._states_of(lesson)
-        if number < 0 and lesson.part.recall is not None:
-            question = ask(TEMPLATES[lesson.part.recall], self._seed)
+        if number < 0 and self._recall:
+            question = ask(TEMPLATES[self._recall], self._seed)
             first = states.of_step(0)
             before = replace(
                 first, place=RunPlace(first.stage), other=None, printed="", buffer="", view="pixels"
@@ -207,7 +214,9 @@ class LessonWalk(QObject):
             return recall_record(lesson, self.course, home.asked.question, self.standings)
         if self.step is None:
             return end_record(lesson, self.following, self.standings)
-        return step_record(lesson, self.number, self.standings, was_done=self._was_done)
+        number = self.number
+        record = step_record(lesson, number, self.standings, was_done=self._was_done)
+        return replace(record, has_previous=number > self.first)
 
     @Slot(object)
     def _stand(self, standing: Standing) -> None:

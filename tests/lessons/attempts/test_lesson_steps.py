@@ -17,9 +17,10 @@ from lessons.attempts.record import (
     next_place,
     place_in,
     read_attempts_json,
+    recall_for,
     standings,
 )
-from lessons.course.catalogue import Course, Lesson, read_lesson
+from lessons.course.catalogue import Course, Lesson, read_lesson, shipped
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import judge
 from tests.lessons.course.lesson_texts import GOOD
@@ -82,6 +83,30 @@ def test_who_is_new_begins_at_the_first_and_who_has_all_is_finished(course: Cour
     assert next_place(done[:3], course) is not None
     assert next_place(done, course) is None
     assert next_place([], Course({})) is None
+
+
+def test_after_a_lesson_comes_the_first_that_is_not_finished(course: Course) -> None:
+    one, two = course.lessons.values()
+    place = next_place([tried(two, step, 1, step) for step in (1, 2, 3)], course)
+    assert place is not None
+    assert (place.lesson, place.step) == (one, 0)
+
+
+def test_what_comes_before_a_lesson_is_of_one_that_was_finished() -> None:
+    course = shipped()
+
+    def finished(name: str) -> list[Attempt]:
+        lesson = course.named(name)
+        return [tried(lesson, step, 1, step) for step in range(len(lesson.steps))]
+
+    lines = course.named("where-d-comes-from")
+    assert lines.part.recall == "midpoint-line"  # With which the lesson "midpoint" closes.
+    assert recall_for([], course, lines) == ""
+    assert recall_for(finished("midpoint"), course, lines) == "midpoint-line"
+    assert recall_for(finished("midpoint")[:-1], course, lines) == ""
+    # Of what else was finished, where its own lesson was not.
+    assert recall_for(finished("weights"), course, lines) == "barycentric-weights"
+    assert recall_for(finished("where-d-comes-from"), course, lines) == ""
 
 
 def test_another_question_is_another_step(course: Course) -> None:
