@@ -1,9 +1,11 @@
 """What of a task does not hold yet, in a sentence that names no solution."""
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from core.methods import table
 from lessons.course.quoted import Situation, flags_of, is_right, value_of
 from lessons.course.record import UntilPart
 from lessons.course.tasks import fails_on, first_open, is_kept
@@ -18,6 +20,8 @@ KEPT_TEXTS = {
 }
 COUNTED = {"drawn": "{} drawn", "tested": "{} tested", "seen": "{} seen"}
 """Names of numbers that are counts of pixels, and what is said of these."""
+_COLOR = re.compile(r"(?:linear|shown)\((\d+), (\d+), \d\)")
+"""A quoted number that is a channel of a pixel."""
 
 
 def unmet(until: UntilPart, situation: Situation, start: Situation) -> str:
@@ -56,7 +60,9 @@ def _counted(until: UntilPart, situation: Situation, start: Situation) -> str:
 
 
 def _settings(until: UntilPart, situation: Situation, start: Situation) -> str:
-    return "the task asks for another method"
+    chosen = until.settings
+    family = next(name for name in chosen if getattr(situation.settings, name) != chosen[name])
+    return f"the task asks for another method of {family.replace('_', ' ')}"
 
 
 def _keeps(until: UntilPart, situation: Situation, start: Situation) -> str:
@@ -85,10 +91,13 @@ def _same(until: UntilPart, situation: Situation, start: Situation) -> str:
 
 def _fails(until: UntilPart, situation: Situation, start: Situation) -> str:
     assert until.fails is not None
-    is_weak = fails_on(until.fails, situation, until.fails.weak)
-    return (
-        "the method that should stay right fails, too" if is_weak else "the method that should fail does not"
-    )
+    if fails_on(until.fails, situation, until.fails.weak):
+        return f"{_titles(until.fails.robust)} should stay right, and fails, too"
+    return f"{_titles(until.fails.weak)} does not fail"
+
+
+def _titles(chosen: Mapping[str, str]) -> str:
+    return " with ".join(f"“{table.get(family, name).title}”" for family, name in chosen.items())
 
 
 def _holds(until: UntilPart, situation: Situation, start: Situation) -> str:
@@ -101,6 +110,13 @@ def _holds(until: UntilPart, situation: Situation, start: Situation) -> str:
     if name.startswith("differs("):
         count = value_of(text[: text.index(")") + 1], situation)
         return f"{count:,} {'pixel differs' if count == 1 else 'pixels differ'}"
+    if (place := _COLOR.match(text)) is not None:
+        at = f"{place[1]}, {place[2]}"
+        shown = ", ".join(str(value_of(f"shown({at}, {channel})", situation)) for channel in range(3))
+        return f"pixel ({at}) has the colour ({shown}), and should have another"
+    if name.startswith("apart("):
+        count = value_of(text[: text.index(")") + 1], situation)
+        return f"the largest difference of a colour is {count} of 255"
     return ""
 
 

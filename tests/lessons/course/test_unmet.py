@@ -18,5 +18,5 @@ def test_a_task_says_what_it_lacks_until_it_is_done(lesson: Lesson) -> None:
             continue
         start = states.of_step(number)
         before, after = situation_of(start), situation_of(solved(start, step.solution))
-        assert unmet(step.until, before, before).startswith("Not yet")
+        assert unmet(step.until, before, before).startswith("Not yet: ")
         assert unmet(step.until, after, before) == ""
