@@ -7,9 +7,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import Qt, QTimer, Slot
+from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Slot
 from PySide6.QtGui import QKeyEvent, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QAbstractButton, QAbstractSlider, QCheckBox, QPushButton, QScrollArea, QWidget
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QAbstractSlider,
+    QCheckBox,
+    QLineEdit,
+    QPushButton,
+    QScrollArea,
+    QWidget,
+)
 
 from app.background import Job, Progress
 from app.pages.lessons.lesson_list import LessonsPresenter
@@ -17,12 +25,14 @@ from app.pages.page_bar import Page
 from app.session.moment import Change
 from app.session.session import Session
 from core.fast_path.draw import draw_picture
+from core.records.words import counted
 from core.scene import AnyScene, Scene
 from core.setting_texts import settings_from_texts
 from lessons.lectures.scenes import ALL_SCENES, LECTURE_SCENES, LECTURES
 from lessons.scene_edits import scene_digest
 from lessons.scenes import CATALOGUE, BuiltInScene
 from lessons.world_scenes import TEACHING_SIZE
+from widgets.basics.accessibility import announce
 from widgets.basics.controls import button_with_tip, column_layout, row_layout, text_label
 from widgets.basics.image import display_image
 from widgets.basics.theme import current_theme, theme_notifier
@@ -43,6 +53,7 @@ PAINTED_MS = 20
 MOST_RECENT = 6
 HIDDEN = "Hidden while an exercise or a lesson asks about this scene"
 """What stands for the picture of a scene."""
+NONE_FOUND = "No lesson and no scene has these words."
 OF_MESH = 8
 """Size of the picture of a mesh, in those of the cards' unit: it is shown smaller, so that its edges are smooth."""
 SCROLLS = {
@@ -78,6 +89,15 @@ class StartPage(Page):
         )
         self.cards.scene_chosen.connect(self.open_requested)
         self.lesson_list = LessonList(self)
+        self.search = QLineEdit(self)
+        self.search.setPlaceholderText("Find a lesson or a scene")
+        self.search.setAccessibleName("Find a lesson or a scene")
+        self.search.setClearButtonEnabled(True)
+        self.search.installEventFilter(self)
+        self.search.textChanged.connect(self._find)
+        self.search.returnPressed.connect(self._open_first)
+        self.none_found = text_label(NONE_FOUND, self, role="muted")
+        self.none_found.hide()
         self.lessons = LessonsPresenter(self.lesson_list, self)
         self.lessons.lesson_requested.connect(self.lesson_requested)
         self.lessons.place_changed.connect(self._show_place)
@@ -141,6 +161,8 @@ class StartPage(Page):
     def _scenes(self) -> QWidget:
         pane = QWidget(self)
         layout = column_layout(pane, 8, margins=(0, 8, 8, 8))
+        layout.addWidget(self.search)
+        layout.addWidget(self.none_found)
         layout.addWidget(self.lesson_list)
         layout.addSpacing(8)
         layout.addWidget(self.cards)
@@ -167,6 +189,22 @@ class StartPage(Page):
             self._recent_rows.addWidget(button)
         if not self._recent_rows.count():
             self._recent_rows.addWidget(text_label("No files yet.", self._recent, role="muted"))
+
+    @Slot(str)
+    def _find(self, text: str) -> None:
+        """Show the lessons and scenes that have all words of a text."""
+        words = text.casefold().split()
+        count = self.lesson_list.show_only(words) + self.cards.show_only(words)
+        self.none_found.setHidden(count > 0)
+        announce(self.search, "" if not words else counted(count, "lesson or scene", "lessons and scenes"))
+
+    @Slot()
+    def _open_first(self) -> None:
+        """Open the first lesson or scene that was found."""
+        cards = [*self.lesson_list.cards, *self.cards.cards] if self.search.text().strip() else []
+        first = next((card for card in cards if card.isVisible()), None)
+        if first is not None:
+            first.click()
 
     @Slot(Change)
     def _follow(self, what: Change) -> None:
@@ -241,6 +279,17 @@ class StartPage(Page):
     def dismiss(self) -> bool:
         """Go back to the Step page."""
         self.action_requested.emit("page_step")
+        return True
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Let Escape clear what is looked for, before it leaves the field."""
+        is_escape = isinstance(event, QKeyEvent) and event.key() == Qt.Key.Key_Escape
+        if not (is_escape and watched is self.search and self.search.text()):
+            return False
+        if event.type() == QEvent.Type.ShortcutOverride:
+            event.accept()
+        elif event.type() == QEvent.Type.KeyPress:
+            self.search.clear()
         return True
 
     def keyPressEvent(self, event: QKeyEvent) -> None:

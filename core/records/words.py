@@ -1,6 +1,6 @@
 """How sentences are put together: counts and lists, where a sentence begins, and what is drawn by its name."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 # Counts and lists as sentences write them.
@@ -130,3 +130,9 @@ _NOUNS = {
 def nouns(corner_count: int) -> Nouns:
     """Return the names of primitives of so many corners."""
     return _NOUNS.get(corner_count, POLYGONS)
+
+
+def has_words(words: Iterable[str], *texts: str) -> bool:
+    """Return whether each word that is looked for, in small letters, stands in one of the texts."""
+    found = " ".join(texts).casefold()
+    return all(word in found for word in words)

@@ -12,7 +12,7 @@ from core.records.arrays import is_alike
 from widgets.basics.accessibility import FocusRing
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.grid.canvas import GridCanvas, OutlineLayer
-from widgets.grid.geometry import GridGeometry, NameBox, paint_focus
+from widgets.grid.geometry import GridGeometry, NameBox, paint_chip, paint_focus, vertex_place
 from widgets.grid.layers import NO_VALUE, CenterOverlay, GridBuffer, Overlay
 from widgets.grid.marks import SampleDots, StepMark, marked_rect, paint_hover, paint_pin, paint_step_mark
 from widgets.grid.names import name_boxes
@@ -244,7 +244,24 @@ class GridDisplay(QWidget):
             free -= box.toAlignedRect()
         painter.setClipRegion(free)
         paint_pin(painter, placement, pixel)
+        self._paint_pinned_value(painter, placement, pixel)
         painter.restore()
+
+    def _paint_pinned_value(
+        self, painter: QPainter, placement: GridPlacement, pixel: tuple[int, int]
+    ) -> None:
+        """Write the pinned pixel's value over a vertex that hides it, unless that is held."""
+        geometry, buffer, theme = self._geometry, self._canvas.buffer, current_theme()
+        writing = self._canvas.writing(placement, theme)
+        if geometry is None or buffer is None or writing is None or self._compact or self._is_hidden(pixel):
+            return
+        box = QRectF(number_boxes(placement, buffer, writing, {pixel}).boundingRect())
+        others = (vertex for vertex in geometry.focus_vertices if vertex != self._vertex)
+        places = (vertex_place(geometry, placement, vertex) for vertex in others)
+        if not box.isEmpty() and any(place is not None and box.contains(place) for place in places):
+            painter.setFont(writing.font)
+            text = "\n".join(buffer.lines_at(*pixel, 4, writing.width))
+            paint_chip(painter, box.adjusted(-3, 0, 3, 0), text, theme.text, theme)
 
     def _paint_geometry(self, painter: QPainter, placement: GridPlacement, geometry: GridGeometry) -> None:
         """Paint the triangle in focus, on the screen from a kept picture: smooth lines are slow to draw."""

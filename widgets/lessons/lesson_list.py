@@ -7,7 +7,7 @@ from PySide6.QtCore import QPointF, QRect, QRectF, QSize, Qt, Signal, Slot
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QKeyEvent, QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import QAbstractButton, QToolButton, QWidget
 
-from core.records.words import counted
+from core.records.words import counted, has_words
 from widgets.basics.accessibility import ArrowGroup, KeyClaim
 from widgets.basics.controls import FlowLayout, button_with_tip, column_layout, row_layout, text_label
 from widgets.basics.theme import Theme, current_theme, text_font, theme_notifier
@@ -192,14 +192,26 @@ class LessonPartView(QWidget):
 
     @property
     def is_open(self) -> bool:
-        """Whether the cards are shown."""
-        return self._group.isVisibleTo(self)
+        """Whether the cards are shown, where no words are looked for."""
+        return self._is_open
 
     def set_open(self, is_open: bool) -> None:
         """Show the cards, or fold them away."""
+        self._is_open = is_open
         self._group.setVisible(is_open)
         self.button.setArrowType(Qt.ArrowType.DownArrow if is_open else Qt.ArrowType.RightArrow)
         self.button.setAccessibleDescription("shown" if is_open else "folded away")
+
+    def show_only(self, words: Sequence[str]) -> int:
+        """Show the lessons that have all ``words`` in their texts, and return their number; no words: as before."""
+        found = [
+            has_words(words, card.entry.title, card.entry.question, card.entry.name) for card in self.cards
+        ]
+        for card, is_found in zip(self.cards, found, strict=True):
+            card.setHidden(not is_found)
+        self._group.setVisible(bool(words) or self._is_open)
+        self.setVisible(any(found))
+        return sum(found)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Choose how many cards stand side by side."""
@@ -239,6 +251,7 @@ class LessonList(QWidget):
         super().__init__(parent)
         self.setAccessibleName("Lessons")
         self.parts: list[LessonPartView] = []
+        self._words: Sequence[str] = ()
         self._is_by_stage = False
         self.lead = text_label("", self, wraps=True)
         self.order_button = button_with_tip(BY_STAGE, "List the lessons in another order", self)
@@ -271,6 +284,13 @@ class LessonList(QWidget):
             is_next = any(lesson.is_next for lesson in view.part.lessons)
             view.set_open(is_next or view.part.title in were_open)
             self._column.addWidget(view)
+        self.show_only(self._words)
+
+    def show_only(self, words: Sequence[str]) -> int:
+        """Leave out the lessons that do not have all ``words`` in their texts; return how many are left."""
+        self._words = words
+        self.lead.setVisible(not words)
+        return sum(view.show_only(words) for view in self.parts)
 
     @Slot()
     def _turn(self) -> None:

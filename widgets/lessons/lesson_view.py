@@ -167,9 +167,6 @@ class LessonView(QWidget):
         self.lead = text_label("", self, role="muted", wraps=True)
         self.text = text_label("", self, wraps=True, is_selectable=True, name="What this step is about")
         self.task_icon = QLabel(self)
-        policy = self.task_icon.sizePolicy()
-        policy.setRetainSizeWhenHidden(True)
-        self.task_icon.setSizePolicy(policy)
         self.task = text_label("", self, role="strong", wraps=True, name="What is to be done")
         self.note = text_label("", self, role="muted", wraps=True)
         self.check_button = self._button("Check", "Check the answer (Return)", self.check_requested)
@@ -393,6 +390,9 @@ class LessonView(QWidget):
         record = self._record
         is_right = self._feedback is not None and self._feedback.is_right is True
         is_done = record is not None and bool(record.task) and (record.is_done or is_right)
+        policy = self.task_icon.sizePolicy()
+        policy.setRetainSizeWhenHidden(record is not None and bool(record.task))
+        self.task_icon.setSizePolicy(policy)
         self.task_icon.setFixedWidth(theme.text_px)
         self.task_icon.setVisible(is_done)
         if is_done:

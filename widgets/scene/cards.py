@@ -18,6 +18,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QAbstractButton, QWidget
 
+from core.records.words import has_words
 from widgets.basics.accessibility import ArrowGroup, KeyClaim, give_focus
 from widgets.basics.controls import FlowLayout, column_layout, text_label
 from widgets.basics.theme import Theme, current_theme, text_font, theme_notifier
@@ -169,6 +170,8 @@ class SceneCards(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.cards: list[SceneCard] = []
+        self._groups: list[tuple[QWidget, QWidget, list[SceneCard]]] = []
+        """Title, what holds the cards below it, and they."""
         self._column = column_layout(self, 8)
         self.setAccessibleName("Scenes")
 
@@ -180,9 +183,11 @@ class SceneCards(QWidget):
             flow = FlowLayout(group, SPACING)
             if self.cards:
                 self._column.addSpacing(SPACING)
-            self._column.addWidget(text_label(title, self, role="title", wraps=True))
+            heading = text_label(title, self, role="title", wraps=True)
+            self._column.addWidget(heading)
             self._column.addWidget(group)
             cards = [SceneCard(entry, group) for entry in entries]
+            self._groups.append((heading, group, cards))
             ArrowGroup(cards, group)
             for card in cards:
                 card.clicked.connect(self._choose)
@@ -211,6 +216,20 @@ class SceneCards(QWidget):
             for card, size in sizes:
                 card.setFixedSize(size.width(), height)
 
+    def show_only(self, words: Sequence[str]) -> int:
+        """Leave out the scenes that do not have all ``words`` in their texts; return how many are left."""
+        count = 0
+        for heading, group, cards in self._groups:
+            found = [
+                has_words(words, card.entry.title, card.entry.description, card.entry.name) for card in cards
+            ]
+            for card, is_found in zip(cards, found, strict=True):
+                card.setHidden(not is_found)
+            for widget in (heading, group):
+                widget.setVisible(any(found))
+            count += sum(found)
+        return count
+
     def show_picture(self, name: str, image: QImage) -> None:
         """Show the picture of a scene by its name."""
         next(card for card in self.cards if card.entry.name == name).show_picture(image)
@@ -233,11 +252,13 @@ class SceneCards(QWidget):
 
     def _beside(self, index: int, columns: int, rows: int) -> SceneCard | None:
         """Return the card before or after one, or the nearest in the row above or below it; ``None``: there is none."""
+        shown = [k for k, card in enumerate(self.cards) if not card.isHidden()]
         if columns:
-            return self.cards[index + columns] if 0 <= index + columns < len(self.cards) else None
+            place = shown.index(index) + columns
+            return self.cards[shown[place]] if 0 <= place < len(shown) else None
         places = [card.mapTo(self, QPoint()) for card in self.cards]
         here = places[index]
-        others = [k for k, place in enumerate(places) if (place.y() - here.y()) * rows > 0]
+        others = [k for k in shown if (places[k].y() - here.y()) * rows > 0]
         nearest = min(
             others, key=lambda k: (abs(places[k].y() - here.y()), abs(places[k].x() - here.x())), default=None
         )

@@ -37,6 +37,35 @@ def test_every_scene_has_a_card_with_a_picture_of_it(page: StartPage) -> None:
     assert list(groups) == ["Scenes", *LECTURES.values()]
 
 
+def test_typed_words_leave_the_lessons_and_scenes_that_have_them(
+    window: MainWindow, page: StartPage, qtbot: QtBot
+) -> None:
+    def found() -> tuple[list[str], list[str]]:
+        lessons = [card.entry.name for card in page.lesson_list.cards if card.isVisible()]
+        return lessons, [card.entry.name for card in page.cards.cards if card.isVisible()]
+
+    before = found()
+    page.search.setFocus(Qt.FocusReason.TabFocusReason)
+    QTest.keyClicks(page.search, "Shared EDGE")
+    lessons, scenes = found()
+    assert lessons[0] == "shared-edges", "also of a part that was folded away"
+    assert scenes[0] == "shared-edge"
+    assert len(scenes) < 6
+    assert page.none_found.isHidden()
+    page.search.setText("no such words")
+    assert found() == ([], [])
+    assert page.none_found.isVisible()
+    QTest.keyClick(page.search, Qt.Key.Key_Escape)
+    assert found() == before
+    assert page.search.text() == ""
+    assert window.pages.current is page
+    page.search.setText("near plane clip")
+    title = ALL_SCENES[found()[1][0]].title
+    QTest.keyClick(page.search, Qt.Key.Key_Return)
+    page.search.clear()
+    qtbot.waitUntil(lambda: window.session.document.title == title)
+
+
 def test_pictures_are_drawn_by_the_core() -> None:
     fan, cube, plates = (
         picture_of(built_in_scene(name), built_in_scene(name).make())
