@@ -129,9 +129,9 @@ class StepColumns(PaneSplitter):
         wanted[1] -= min(max(sum(wanted) - room, 0.0), max(wanted[1] - GIVES_WAY_TO * text, 0.0))
         scale = min(1.0, room / max(sum(wanted), 1.0))
         left, right = (round(width * scale) for width in wanted)
-        for number, widget in enumerate(self._sides, 1):
+        if not self._is_presenting and not self._sides[0].isHidden():
             # Qt does so later, and divides once more.
-            self.handle(number).setHidden(widget.isHidden())
+            self.handle(1).show()
         self.setSizes([left, max(self.width() - left - right, 1), right])
 
     def resizeEvent(self, event: QResizeEvent) -> None:
