@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from PySide6.QtCore import Qt, Slot
+from PySide6.QtCore import QEvent, QObject, Qt, Slot
 from PySide6.QtGui import QFontDatabase, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractButton,
@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from core.records.cells import Form, Marks
-from widgets.basics.accessibility import announce
+from widgets.basics.accessibility import announce, give_focus
 from widgets.basics.controls import (
     ChoiceBox,
     button_with_tip,
@@ -42,20 +42,39 @@ class ChoiceAnswerView(AnswerView):
         make = QCheckBox if form.is_several else QRadioButton
         self.buttons: list[QAbstractButton] = [make(option, self) for option in form.items]
         self._marks = [QLabel(self) for _ in form.items]
+        self._has_numbers = len(form.items) < 10 and not any(option[:1].isdigit() for option in form.items)
+        """Whether a digit chooses an option: not where it might be read as what an option says."""
         # Qt lets Tab stop at one button of a group only, whether it is exclusive or not.
         self._group = None if form.is_several else QButtonGroup(self)
         layout = column_layout(self, 4)
-        how = "Choose all that are right." if form.is_several else "Choose one."
+        how = "Choose all that are right" if form.is_several else "Choose one"
+        how += f" (keys 1 to {len(form.items)})." if self._has_numbers else "."
         layout.addWidget(text_label(how, self, role="muted"))
         for button, mark in zip(self.buttons, self._marks, strict=True):
             if self._group is not None:
                 self._group.addButton(button)
             button.clicked.connect(self._chosen)
+            button.installEventFilter(self)
             row = row_layout(spacing=8)
             row.addWidget(button)
             row.addWidget(mark)
             row.addStretch(1)
             layout.addLayout(row)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Choose an option by its number: in the window a digit goes to a stage, which would give the answer away."""
+        if not isinstance(event, QKeyEvent) or not Qt.Key.Key_0 <= event.key() <= Qt.Key.Key_9:
+            return False
+        if event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier:
+            return False
+        if event.type() == QEvent.Type.ShortcutOverride:
+            event.accept()
+        number = event.key() - Qt.Key.Key_0
+        is_number = self._has_numbers and 0 < number <= len(self.buttons)
+        if is_number and event.type() == QEvent.Type.KeyPress:
+            give_focus(self.buttons[number - 1])
+            self.buttons[number - 1].click()
+        return True
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Write long options in several lines."""
