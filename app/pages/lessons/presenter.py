@@ -344,8 +344,18 @@ class LessonPresenter(QObject):
         self._do(lambda walk: walk.task.reveal() if walk.task.is_unsolved else walk.next())
 
     def retreat(self) -> None:
-        """Go back in front of a class: hide an answer or a solution first."""
-        self._do(lambda walk: walk.return_here() if walk.task.shows_solution else walk.back())
+        """Go back in front of a class: hide an answer or a solution first; from a beginning, to the lesson before."""
+
+        def act(walk: "LessonWalk") -> None:
+            before = walk.preceding
+            if walk.task.shows_solution:
+                walk.return_here()
+            elif walk.number > walk.first or before is None:
+                walk.back()
+            else:
+                self.open(before.name, len(before.steps))
+
+        self._do(act)
 
     def set_presenting(self, is_presenting: bool) -> None:
         """Show which button a clicker presses, or the desk's own."""

@@ -122,6 +122,12 @@ class LessonWalk(QObject):
         return None if self.lesson is None else self.course.after(self.lesson)
 
     @property
+    def preceding(self) -> Lesson | None:
+        """The lesson that this one follows."""
+        lessons = self.course.lessons.values()
+        return next((each for each in lessons if self.course.after(each) is self.lesson), None)
+
+    @property
     def first(self) -> int:
         """The number of what a lesson begins with."""
         return RECALL if self._recall else 0
