@@ -324,6 +324,28 @@ def test_no_line_of_a_thumbnail_leaves_its_frame(qtbot, focus: int, is_kept: boo
     assert len(inside) > 1
 
 
+def test_a_vertex_hides_no_value_of_the_pinned_pixel(qtbot) -> None:
+    widget = PixelGrid()
+    qtbot.addWidget(widget)
+    widget.resize(500, 500)
+    corners = np.array([[4.5, 4.5], [8.5, 4.5], [8.5, 2.5]])
+    widget.show_geometry(GridGeometry(corners, np.array([[0, 1, 2]])))
+    widget.show_buffer(GridBuffer("overdraw", np.full((9, 9), 16)))
+    middle = at(widget, 4.5, 4.5)
+    vertex = QColor(current_theme().vertex[0])
+    assert picture(widget).pixelColor(middle) == vertex
+    widget.show_pin((4, 4))
+    around = picture(widget).copy(middle.x() - 20, middle.y() - 12, 40, 24)
+    shades = [around.pixelColor(x, y).lightness() for x in range(40) for y in range(24)]
+    assert picture(widget).pixelColor(middle) != vertex
+    assert sum(shade > 200 for shade in shades) > 200, "the ground of the number"
+    assert sum(shade < 80 for shade in shades) > 20, "its digits"
+    hidden = np.zeros((9, 9), bool)
+    hidden[4, 4] = True
+    widget.show_hidden(hidden)
+    assert picture(widget).pixelColor(middle) == vertex
+
+
 def test_the_pin_of_a_pixel_at_the_border_is_whole(qtbot) -> None:
     widget = PixelGrid()
     qtbot.addWidget(widget)

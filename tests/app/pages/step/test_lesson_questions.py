@@ -3,9 +3,10 @@
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QImage
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.pages.lessons.walk import LessonWalk
@@ -13,6 +14,7 @@ from app.window.main_window import MainWindow
 from lessons.scene_edits import scene_digest
 from tests.app.pages.step.lesson_walks import DONE, OPEN, SEEN, answered, kept, opened, settled
 from tests.lessons.course.lesson_texts import GOOD
+from widgets.exercises.choice_answers import ChoiceAnswerView
 from widgets.exercises.picture_answers import PixelAnswerView
 from widgets.grid.layers import MaskOverlay
 
@@ -88,6 +90,56 @@ def test_check_and_next_keep_their_place(window: MainWindow, qtbot: QtBot, walk:
             settled(window, qtbot)
         places.append((view.check_button.y(), view.next_button.y()))
     assert places == places[:1] * 4
+
+
+def test_next_keeps_its_place_when_marked_pixels_are_right(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    long = "Mark the pixels of triangle 0, and of it alone, as long as a line of this pane is."
+    walk = opened(window, qtbot, tmp_path, 2, GOOD.replace("Mark the pixels of triangle 0.", long))
+    before = walk.view.next_button.mapTo(window, QPoint())
+    assert walk.answers.asked is not None
+    walk.answers.fill(walk.answers.asked.question.draft.answer.reference)
+    walk.answers.check()
+    settled(window, qtbot)
+    assert walk.standings[2] is DONE
+    assert walk.view.next_button.mapTo(window, QPoint()) == before
+
+
+def test_a_digit_chooses_an_option_and_goes_to_no_stage(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    choice = 'answer = { type = "choice", options = ["none", "all", "half"], right = ["half"] }'
+    text = GOOD.replace('answer = { type = "pixels", triangle = 0 }', choice)
+    text = text.replace('mistakes = ["all-edges-inclusive", "all-edges-exclusive"]', "")
+    walk = opened(window, qtbot, tmp_path, 2, text)
+    answer = walk.view.answer
+    assert isinstance(answer, ChoiceAnswerView)
+    answer.buttons[0].setFocus(Qt.FocusReason.TabFocusReason)
+    for key, chosen in (("2", ["all"]), ("9", ["all"]), ("3", ["half"])):
+        focused = QApplication.focusWidget()
+        assert focused is not None
+        QTest.keyClicks(focused, key)
+        assert answer.given() == chosen
+        assert window.session.cursor.stage == "raster"
+    QTest.keyClick(walk.view, Qt.Key.Key_Return)
+    settled(window, qtbot)
+    assert walk.standings[2] is DONE
+
+
+def test_a_clicker_goes_back_to_the_end_of_the_lesson_before(window: MainWindow, qtbot: QtBot) -> None:
+    lessons = window.page.lessons
+    lessons.open("inside-or-outside")
+    walk = settled(window, qtbot)
+    lessons.retreat()
+    settled(window, qtbot)
+    assert walk.lesson is not None
+    assert (walk.lesson.name, walk.step) == ("pixel-centres", None)
+    lessons.open("pixel-centres", 0)
+    settled(window, qtbot)
+    lessons.retreat()
+    settled(window, qtbot)
+    assert (walk.lesson.name, walk.number) == ("pixel-centres", 0)
 
 
 def test_revealing_counts_as_seen(window: MainWindow, qtbot: QtBot, walk: LessonWalk) -> None:
