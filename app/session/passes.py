@@ -4,11 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.session.document import STEPPED, Document, open_document
+from app.session.document import STEPPED, Document, document_at
 from app.session.moment import Moment, Pixel
 from app.session.session import Session
 from core.records.passes import PlannedPass
 from core.stages.passes import planned_passes
+from core.study.record import Opening
 
 NO_PASS = "This picture needs no pass: choose a shadow map, or a depth test with a prepass."
 
@@ -18,9 +19,13 @@ def passes_of(document: Document) -> tuple[PlannedPass, ...]:
     return planned_passes(document.traced_scene, document.settings)
 
 
-def pass_document(planned: PlannedPass) -> Document:
-    """Return a pass as a document that can be stepped: its fill tests pixel by pixel, and draws the same."""
-    return open_document(planned.scene, planned.title, settings=replace(planned.settings, fill=STEPPED.fill))
+def pass_document(planned: PlannedPass, pixel: Pixel | None = None) -> Document:
+    """Return a pass as a document that can be stepped, a large one around a pixel.
+
+    Its fill tests pixel by pixel, and draws the same.
+    """
+    settings = replace(planned.settings, fill=STEPPED.fill)
+    return document_at(Opening(planned.scene, settings, "depth", pixel), planned.title)
 
 
 def looked_up_texels(moment: Moment, row: int) -> list[Pixel]:
@@ -45,7 +50,7 @@ def open_pass(session: Session, number: int = 0) -> None:
     chosen, pixel = planned[number], moment.pin
     if chosen.name == "shadow-map":
         pixel = next(iter(looked_up_texels(moment, shaded_row(moment))), None)
-    session.open(pass_document(chosen))
+    session.open(pass_document(chosen, pixel))
     session.set_stage("depth")
     if pixel is not None and session.moment.has_pixel(pixel):
         session.set_pin(pixel)

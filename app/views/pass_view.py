@@ -8,6 +8,7 @@ from app.session.moment import Moment
 from app.session.passes import looked_up_texels, open_pass, passes_of, shaded_row
 from app.views.companions import Companion
 from core.records.passes import PlannedPass
+from core.records.words import joined
 from core.stages.passes import drawn_depth
 from widgets.basics.controls import column_layout, text_label
 from widgets.grid.layers import GridBuffer
@@ -52,6 +53,10 @@ class PassBeside(Companion):
         self.grid.show_buffer(GridBuffer("shadow map", drawn_depth(planned), range=(0.0, 1.0), title="depth"))
         texels = looked_up_texels(self.moment, shaded_row(self.moment))
         self.grid.show_step(StepMark(np.array(texels)) if texels else StepMark())
+        said = (
+            f"Looked up: {joined([str(texel) for texel in texels])}." if texels else "No texel is looked up."
+        )
+        self.grid.setAccessibleDescription(said)
 
     @Slot(int, int, QPoint)
     def _offer(self, _column: int, _row: int, place: QPoint) -> None:

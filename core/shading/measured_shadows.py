@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from core.pipeline import render
-from core.records.arrays import Floats, cached_property
+from core.records.arrays import Flags, Floats, cached_property
 from core.records.frame import Frame
 from core.scene import Camera, DirectionalLight, Mesh, Scene
 from core.settings import Settings
@@ -93,15 +93,22 @@ class ShadowTask(FrameTask):
     def counts(self, settings: Settings, made: Frame) -> dict[str, int]:
         """Return the counts of the frame, and the texels of the map."""
         planned = planned_passes(self.scene, self._numbered(settings))
+        dark, lit = self._wrong(made)
         return {
             "texels of the map": sum(each.scene.size[0] * each.scene.size[1] for each in planned),
+            "lit pixels in the dark": int(dark.sum()),
+            "shadow pixels in the light": int(lit.sum()),
             **super().counts(settings, made),
         }
 
+    def _wrong(self, made: Frame) -> tuple[Flags, Flags]:
+        """Return which pixels (H, W) get less light than by rays, and which more."""
+        more = made.color[..., :3].astype(np.float64) - self.reference.color[..., :3]
+        return np.asarray((more < -ROUNDING).any(axis=2)), np.asarray((more > ROUNDING).any(axis=2))
+
     def judge(self, settings: Settings, made: Frame) -> Judgement:
         """Count the pixels that get less light than by rays, and more."""
-        more = made.color[..., :3].astype(np.float64) - self.reference.color[..., :3]
-        dark, lit = (more < -ROUNDING).any(axis=2), (more > ROUNDING).any(axis=2)
+        dark, lit = self._wrong(made)
         wrong = np.asarray(dark | lit)
         count, seen = int(np.count_nonzero(wrong)), int(np.count_nonzero(made.primitive >= 0))
         outcome = Outcome.WRONG_PICTURE if count else Outcome.RIGHT
@@ -132,16 +139,8 @@ SHADOW = StudyFamily(
             "Box on a floor",
             "frame",
             (
-                Axis("bias", "Shadow bias", "1/16 texel", BIASES, default=11, setting="shadow_bias"),
-                Axis(
-                    "map",
-                    "Shadow map",
-                    "texels on a side",
-                    MAP_SIZES,
-                    default=16,
-                    is_cost=True,
-                    setting="map_size",
-                ),
+                Axis("bias", "Shadow bias", "1/16 texel", BIASES, default=11, is_cost=True),
+                Axis("map", "Shadow map", "texels on a side", MAP_SIZES, True, default=16),
             ),
         ),
     ),

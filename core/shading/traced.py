@@ -377,6 +377,6 @@ def _buffers(
         tracks.append(track("diffuse light", columns["diffuse_light"]))
         tracks.append(track("specular light", columns["specular_light"]))
     for name, title in SHADOW_BUFFERS.items():
-        if name in columns:
-            tracks.append(track(title, np.atleast_2d(columns[name].T)[-1], "scalar"))
+        if name in columns and columns[name].size == len(rows):
+            tracks.append(track(title, columns[name].reshape(-1), "scalar"))
     return tuple(tracks)

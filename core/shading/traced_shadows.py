@@ -17,7 +17,7 @@ SHADOW_BUFFERS = {
     "lamp_stored": "depth in the map",
     "light_share": "share of light",
 }
-"""Columns of shadows that are buffers; of several numbers the last."""
+"""Columns of shadows that are buffers, where they have one number a fragment."""
 
 
 def _casts(source: TraceSource) -> bool:

@@ -85,7 +85,7 @@ def is_hidden(point: np.ndarray, light: np.ndarray) -> bool:
     return max(*(first for first, _ in ends), 0) <= min(last for _, last in ends)
 
 
-def test_numbers_of_the_scene_and_wrong_pixels_lie_at_borders() -> None:
+def test_rays_are_exact_and_maps_have_the_numbers_of_the_scene() -> None:
     primitive = render(BOX).primitive
     is_floor = (primitive >= 0) & (primitive < 2)
     exact = shares(BOX, shadow="rays") == 0
@@ -105,6 +105,29 @@ def test_numbers_of_the_scene_and_wrong_pixels_lie_at_borders() -> None:
     assert (int(is_floor.sum()), int((is_floor & exact).sum())) == (4705, 93)
     at_bound = {(16, 11): [10, 37], (64, 11): [9, 3], (256, 11): [3, 2]}
     assert found == {**at_bound, (16, 0): [2255, 35], (16, 55): [0, 93], (256, 55): [3, 3]}
+
+
+@pytest.mark.parametrize("size", [64, 256])
+def test_wrong_pixels_of_the_floor_lie_within_two_texels_of_a_border(size: int) -> None:
+    # At the bound of the floor, whose texels are longer along the light by 1 / sin(e).
+    source = trace(BOX, Settings()).source
+    wrong = shares(BOX, shadow="map", map_size=size, shadow_bias=11) != shares(BOX, shadow="rays")
+    place = source.fragments.row, source.fragments.column
+    seen = source.picture.primitive[place] == source.triangle_of_fragment
+    chosen = np.flatnonzero(wrong[place] & seen & (source.triangle_of_fragment < 2))
+    light = BOX.lights[0].direction
+    camera = planned_passes(BOX, Settings(shadow="map", map_size=size))[0].scene.camera
+    texel = camera.view_height / size * np.linalg.norm(light) / -light[1]
+    around = [(np.cos(t), np.sin(t)) for t in np.arange(12) * np.pi / 6]
+    assert len(chosen) > 0
+    for k in chosen:
+        x, _, z = source.interpolated[1][k, source.geometry.primitives.layout["position"]]
+        verdicts = {
+            is_hidden(np.array([x + a * r * texel, 0.0, z + b * r * texel]), light)
+            for a, b in around
+            for r in (0.0, 0.5, 1.0, 1.5, 2.0)
+        }
+        assert verdicts == {False, True}, (x, z)
 
 
 @pytest.mark.parametrize("method", ["map", "map-average", "rays"])

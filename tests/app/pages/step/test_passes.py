@@ -5,11 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.session.document import open_document
+from app.session.document import STEPPED, open_document
 from app.session.passes import NO_PASS, looked_up_texels, open_pass, passes_of, shaded_row
 from app.session.session import Session
 from app.views.pass_view import PassBeside
 from core import Settings
+from core.stages.passes import drawn_depth
 from lessons.scenes import make_scene
 
 SHADOWED = replace(Settings(), shadow="map", map_size=16, fill="bounding-box")
@@ -33,6 +34,7 @@ def test_the_map_stands_beside_shade_with_the_texel_of_the_pixel(qtbot):
     assert beside.is_wanted(session.moment)
     assert beside.grid.buffer().values.shape == (16, 16)
     assert looked_up_texels(session.moment, at) == [tuple(stage.columns["lamp_texels"][at][0].tolist())]
+    assert beside.grid.accessibleDescription() == f"Looked up: {looked_up_texels(session.moment, at)[0]}."
     session.set_predicting(True)
     assert shaded_row(session.moment) == -1
 
@@ -58,3 +60,28 @@ def test_without_a_pass_there_is_a_sentence(qtbot):
         open_pass(session)
     assert session.document is before
     assert not PassBeside(session).is_wanted(session.moment)
+
+
+def test_a_large_map_is_stepped_around_the_texel(qtbot):
+    session = session_of(replace(SHADOWED, map_size=1024))
+    stage = session.trace.stage("shade")
+    row = int(np.flatnonzero(stage.columns["light_share"] == 0)[0])
+    session.set_pin(tuple(stage.pixel[row].tolist()))
+    texel = looked_up_texels(session.moment, shaded_row(session.moment))[0]
+    open_pass(session)
+    assert session.document.scene.size == (1024, 1024)
+    assert session.pin == texel
+    column, row = session.moment.place_of(texel)
+    buffer = session.trace.stage("depth").state(session.trace.stage("depth").steps.count)["depth"]
+    assert buffer[row, column] == np.float32(
+        drawn_depth(passes_of(session_of(replace(SHADOWED, map_size=1024)).document)[0])[texel[1], texel[0]]
+    )
+
+
+def test_a_prepass_opens_too(qtbot):
+    scene = make_scene("four-layers")
+    session = Session(open_document(scene, "Layers", settings=replace(STEPPED, depth_test_time="prepass")))
+    session.set_pin((3, 4))
+    open_pass(session)
+    assert (session.document.title, session.pin) == ("Depth alone", (3, 4))
+    assert session.document.settings.depth_test_time == "late"

@@ -228,6 +228,8 @@ def test_shadow() -> None:
     assert lit[55] > lit[11] >= lit[0] > 0
     assert set(found[11]["rays"].errors.values()) == {0}
     assert found[11]["map"].counts["texels of the map"] == 256
+    wrong = {bias: each["map"].counts["lit pixels in the dark"] for bias, each in found.items()}
+    assert wrong[0] > 1000 > wrong[11] > wrong[55] == 0
 
 
 @pytest.mark.parametrize("seed", range(3))
