@@ -248,14 +248,14 @@ class Settings:
     """Straight pieces of a curve, and of each side of a patch (tessellation), 1 to 100,000."""
     curve_tolerance: int = number_field(
         8,
-        "Tolerance of curves",
+        "Tolerance, or side",
         4096,
         (1, 2, 4, 8, 16, 32, 64),
         "{0}/16 px",
         taken_by="tessellation",
         otherwise="Equal steps have a number, and no tolerance.",
     )
-    """Sixteenths of a pixel that a curve may be away from its pieces (tessellation), 1 to 4,096."""
+    """Sixteenths of a pixel that a curve may be away, or a micropolygon long (tessellation), 1 to 4,096."""
     leaf_size: int = number_field(
         8,
         "Leaf size",

@@ -7,6 +7,7 @@ from core.records.curves import Curves
 from core.scene import Camera, ClipScene, Scene
 from core.settings import DEFAULTS
 from core.stages.before_matrices import before_matrices
+from core.tessellation.measured_dice import balls
 from core.tessellation.patches import mesh_of_patches
 from lessons.shapes import FACE_COLORS, linear_color
 from lessons.world_scenes import TEACHING_SIZE, sun
@@ -49,6 +50,11 @@ def hill() -> Scene:
     mesh = mesh_of_patches(patch[None], name="hill", colors=None)
     camera = Camera(eye=np.array([1.2, 2.6, 4.2]), target=np.array([0.0, 0.3, 0.0]), near=1.0, far=12.0)
     return Scene((mesh,), camera, (sun(),), TEACHING_SIZE)
+
+
+def ball() -> Scene:
+    """One ball of eight patches, 40 pixels across, without perspective."""
+    return balls(1)
 
 
 def cracked() -> Scene:

@@ -16,7 +16,7 @@ from lessons.assembled_scenes import (
     triangle_strip,
 )
 from lessons.bone_scenes import bent_bar, blended_bar, twisted_tube
-from lessons.curve_scenes import arch, cracked, curve_in_depth, hill
+from lessons.curve_scenes import arch, ball, cracked, curve_in_depth, hill
 from lessons.run_place import FIRST_STEP, RunPlace
 from lessons.shapes import FACE_COLORS, cube, knot, linear_color, sphere, teapot, torus
 from lessons.window_scenes import (
@@ -383,6 +383,22 @@ CATALOGUE = (
         "Sixteen control points, 72 triangles: the normals come from both derivatives of the surface.",
         hill,
         RunPlace("transform", 'kind == "normal"'),
+    ),
+    BuiltInScene(
+        "diced-hill",
+        "Hill of micropolygons",
+        "The same patch, split and diced until no side is longer than 4 pixels, and shaded before it is hidden.",
+        hill,
+        RunPlace("transform", 'kind == "cut-split"'),
+        {"tessellation": "reyes", "curve_tolerance": "64", "shading": "gouraud"},
+    ),
+    BuiltInScene(
+        "diced-ball",
+        "Ball of micropolygons",
+        "Eight patches in pieces of 4 pixels: 1,352 points are shaded, and 16 pixels of the outline are wrong.",
+        ball,
+        RunPlace("transform", 'kind == "cut-dice"'),
+        {"tessellation": "reyes", "curve_tolerance": "64", "shading": "gouraud"},
     ),
     BuiltInScene(
         "cracked-patches",

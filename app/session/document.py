@@ -273,6 +273,14 @@ def focus_on(document: Document, triangle: int | None) -> Document:
     return fit_region(document)
 
 
+def with_settings(document: Document, settings: Settings) -> Document:
+    """Return the document with other settings; where they cut its curves otherwise, one in the middle is in focus."""
+    changed = replace(document, settings=settings)
+    if document.triangle is None or changed.triangle_count == document.triangle_count:
+        return changed
+    return focus_on(changed, central_triangle(changed))
+
+
 def fit_region(document: Document) -> Document:
     """Return the document with the smallest raster around the triangle in focus.
 

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
-from app.session.document import Document, edits_beside
+from app.session.document import Document, edits_beside, with_settings
 from app.session.history import History, held_arrays
 from app.session.moment import (
     NOTHING,
@@ -167,7 +167,7 @@ class Session(Stepping):
         """Choose a method (or the block size); raises ValueError if the scene cannot be drawn with it."""
         settings: Settings = replace(self.latest.settings, **{family: value})  # type: ignore[arg-type]
         if settings != self.latest.settings:
-            self._put(replace(self.latest, settings=settings))
+            self._put(with_settings(self.latest, settings))
 
     def undo(self) -> None:
         """Take the last edit back, with what is still being traced of it; or one that is being traced, alone."""

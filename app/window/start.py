@@ -22,6 +22,7 @@ from app.files.preferences import load_preferences
 from app.files.saved_windows import EarlierWindow, WindowFile, earlier_windows, remove_oldest_windows
 from app.files.user_folders import has_answers, preferences_folder
 from app.pages.page_table import page_of_file
+from app.session.document import with_settings
 from app.usage import UsageError
 from app.window.appearance import sized_theme, the_application
 from app.window.main_window import MainWindow
@@ -282,7 +283,7 @@ def grab_window(
     opened = open_any(CATALOGUE[0].name if is_saved else target, allows_outside=allows_outside)
     document = opened.document
     if choose is not None:
-        document = replace(document, settings=choose(document.settings))
+        document = with_settings(document, choose(document.settings))
     is_whole = stage is not None or step is not None
     if opened.state is None and (is_whole or document.settings != opened.document.settings):
         is_whole, opened = True, replace(opened, place=RunPlace(opened.place.stage))

@@ -20,6 +20,7 @@ from core.shading.measured_shadows import SHADOW
 from core.study.family import StudyFamily
 from core.study.whole_picture import PIPELINE, standing_in
 from core.tessellation.measured import TESSELLATION
+from core.tessellation.measured_dice import DICING
 from core.trees.measured import HIERARCHY
 from core.visibility.measured_loops import LOOPS
 
@@ -48,6 +49,7 @@ OWN = (
     PRESENTATION,
     FLUSHING,
     TESSELLATION,
+    DICING,
 )
 """Studies with work and references of their own; those whose family is not in the table yet are not shown."""
 

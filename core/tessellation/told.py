@@ -13,11 +13,12 @@ from core.explain.steps import VariableText, hides, shows
 from core.records.arrays import Integers
 from core.records.steps import StepTable
 from core.records.words import counted
+from core.tessellation.reyes import GRID_SIDE
 from core.tessellation.segments import MOST_HALVINGS
 from core.trace import StageTrace
 
 POINTS = "parameter|parameter-v|mix|mix-row|mix-column|normal|emit"
-CUTS = "cut-equal|cut-bound|cut-halve"
+CUTS = "cut-equal|cut-bound|cut-halve|cut-split|cut-dice"
 
 
 def _curve(step: StepValues) -> str:
@@ -127,6 +128,51 @@ def verdict(step: StepValues) -> Said:
     )
 
 
+def _part(step: StepValues) -> str:
+    count, letter = 2 ** step.whole("halvings"), _letter(step)
+    where = f"part {step.whole('place')} of {count} along {letter}" if count > 1 else f"along {letter}"
+    return f"{_curve(step)}, {where}"
+
+
+def is_split(step: StepValues) -> Asked | None:
+    """Ask whether a part is split."""
+    length = spoken(step.number("length"))
+    text = f"{_part(step)}, is {length} pixels long by its control points. Is it split?"
+    return choice(
+        text, int(step.kind != "cut-split"), f"Above {GRID_SIDE} pixels it is split, else it is diced."
+    )
+
+
+@explains("transform.cut-split.split", asks=is_split, decides=True)
+def split(step: StepValues) -> Said:
+    """A part too long for one grid."""
+    length = step.named("length", "l")
+    if isinf(length.value):
+        return f"{_part(step)}, reaches behind the eye: it is split in two."
+    text = f"{_part(step)}, is {length} pixels long by its control points, too long for one grid: it is split in two."
+    return text, formula_of(concludes("split", "split", length.compared(">", named("", GRID_SIDE))))
+
+
+@explains("transform.cut-dice.length", asks=is_split, decides=True)
+def is_short(step: StepValues) -> Said:
+    """A part that one grid holds."""
+    length = step.named("length", "l")
+    if not length.value <= GRID_SIDE:
+        return f"{_part(step)}, was split {MOST_HALVINGS} times, the limit: it is diced."
+    text = f"{_part(step)}, is {length} pixels long by its control points, short enough for one grid: it is diced."
+    return text, formula_of(concludes("split", "dice", length.compared(">", named("", GRID_SIDE))))
+
+
+@explains("transform.cut-dice.dice")
+def diced(step: StepValues) -> Said:
+    """A power of two, so that each part is short enough."""
+    parts, side, length = step.whole("parts"), step.number("side"), step.number("part_length")
+    text = f"{_part(step)}, is diced into {counted(parts, 'part')}: by its control points the longest is"
+    if parts > 1 and length <= side:
+        return f"{text} {spoken(length)} pixels long, and of half as many it was longer than {spoken(side)}."
+    return f"{text} {spoken(length)} pixels long."
+
+
 @explains("transform.parameter|parameter-v.parameter")
 def parameter(step: StepValues) -> Said:
     """Where on the curve the next point lies."""
@@ -230,6 +276,12 @@ shows(
         "chord_end": VariableText("chord to", "Where its chord ends, in pixels."),
         "distance": VariableText("d", "Distance of the control point from the chord, in pixels."),
         "tolerance": VariableText("ε", "How far a curve may be from its pieces, in pixels."),
+        "length": VariableText("l", "Length of the longest control polygon, in pixels."),
+        "side": VariableText("side", "How long a micropolygon may be, in pixels."),
+        "parts": VariableText("parts", "Micropolygons along the part."),
+        "part_length": VariableText(
+            "longest", "Length of the longest of them by its control points, in pixels."
+        ),
         "count": VariableText("n", "Straight pieces."),
         "is_flat": VariableText("straight", "Whether the piece becomes one segment."),
         "step": VariableText("k", "Step of the point."),

@@ -42,6 +42,11 @@ CUT_OPERATIONS: dict[str, tuple[Operation, ...]] = {
         ),
         Operation("verdict", "flat", {"is_flat": RETURN}, ("tolerance", "halvings")),
     ),
+    "cut-split": (Operation("split", "split", (), ("owner", "halvings", "place", "side", "length")),),
+    "cut-dice": (
+        Operation("length", "split", (), ("owner", "halvings", "place", "side", "length")),
+        Operation("dice", "dice", ("parts",), ("part_length",)),
+    ),
 }
 """How it is decided where curves are cut."""
 
@@ -226,6 +231,8 @@ def _cut_rows(
 
 def _of_test(test: dict[str, Any]) -> dict[str, Any]:
     """Return the kind and the columns of a test of `core.tessellation.segments.CurveSteps`."""
+    if "parts" in test:
+        return {"kind": "cut-dice" if test["parts"] else "cut-split", **test}
     if "distance" in test:
         pairs = {"control_point": ("x", "y"), "chord_start": ("ax", "ay"), "chord_end": ("bx", "by")}
         points = {name: tuple(float(test[axis]) for axis in axes) for name, axes in pairs.items()}

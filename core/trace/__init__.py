@@ -84,6 +84,10 @@ def trace(
     ValueError
         For a triangle that is not there, a region without pixels, or another ``before`` or ``lanes``.
     """
+    if scene.makes_positions:
+        from core.stages.before_matrices import before_matrices
+
+        scene = before_matrices(scene, settings or Settings())
     count = scene_triangle_count(scene)
     if triangle is not None and not 0 <= triangle < count:
         raise ValueError(f"triangle must be 0 to {count - 1}, got {triangle}")

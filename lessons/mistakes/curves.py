@@ -76,6 +76,43 @@ def divided_then_cut(places: Sequence[int], w: Sequence[int], t: Fraction) -> tu
     return (mixed([Fraction(p) for p in places], t),)
 
 
+def split_and_diced(length: int, limit: int, side: int) -> tuple[int, int]:
+    """Return into how many pieces a line is split in halves, and into how many parts each piece is diced."""
+    pieces, parts = 1, 1
+    while Fraction(length, pieces) > limit:
+        pieces *= 2
+    while Fraction(length, pieces * parts) > side:
+        parts *= 2
+    return pieces, parts
+
+
+def diced_without_powers(length: int, limit: int, side: int) -> tuple[int, int]:
+    """Dice into the least number of parts, whatever the neighbours have."""
+    pieces, _ = split_and_diced(length, limit, side)
+    return pieces, ceil(Fraction(length, pieces * side))
+
+
+def diced_at_once(length: int, limit: int, side: int) -> tuple[int, int]:
+    """Dice the whole line as one grid."""
+    pieces, parts = split_and_diced(length, limit, side)
+    return 1, pieces * parts
+
+
+def points_of_grids(patches: int, columns: int, rows: int, hidden: int) -> tuple[int]:
+    """Return how many points are shaded of patches with grids of their own, of which some are hidden."""
+    return (patches * (columns + 1) * (rows + 1),)
+
+
+def cells_of_grids(patches: int, columns: int, rows: int, hidden: int) -> tuple[int]:
+    """Count the micropolygons."""
+    return (patches * columns * rows,)
+
+
+def seen_points(patches: int, columns: int, rows: int, hidden: int) -> tuple[int]:
+    """Leave out what is hidden."""
+    return ((patches - hidden) * (columns + 1) * (rows + 1),)
+
+
 _HALF = Fraction(1, 2)
 
 RULES = (
@@ -134,5 +171,37 @@ RULES = (
         divided_then_cut,
         ((0, 8, 8), (1, 1, 3), _HALF),
         ((0, 8, 8), (2, 2, 2), _HALF),
+    ),
+    WrongRule(
+        "parts-not-a-power-of-two",
+        "The least number of parts was taken. Parts are counted in powers of two, so that neighbours fit together.",
+        split_and_diced,
+        diced_without_powers,
+        (40, 16, 4),
+        (64, 16, 4),
+    ),
+    WrongRule(
+        "diced-without-splitting",
+        "The whole was diced as one grid. What is longer than a grid may be is first split in halves.",
+        split_and_diced,
+        diced_at_once,
+        (40, 16, 4),
+        (12, 16, 4),
+    ),
+    WrongRule(
+        "micropolygons-for-points",
+        "The micropolygons were counted. The points of the grid are shaded, one more each way than there are cells.",
+        points_of_grids,
+        cells_of_grids,
+        (2, 4, 4, 1),
+        (0, 4, 4, 0),
+    ),
+    WrongRule(
+        "hidden-grids-not-shaded",
+        "What is hidden was left out. A grid is shaded before it is known what hides it.",
+        points_of_grids,
+        seen_points,
+        (2, 4, 4, 1),
+        (2, 4, 4, 0),
     ),
 )

@@ -75,7 +75,8 @@ def test_the_catalogue():
         "pentagram", "near-plane", "intersecting", "crossing-glass", "circle-of-bars", "depth-table",
         "four-layers", "two-buffers", "z-fighting", "textured-floor",
         "lit-floor", "box-in-light", "cube", "boxes-around", "two-boxes", "bent-bar", "twisted-tube", "blended-bar",
-        "curve", "curve-in-depth", "hill", "cracked-patches", "teapot", "sphere", "torus", "knot",
+        "curve", "curve-in-depth", "hill", "diced-hill", "diced-ball", "cracked-patches",
+        "teapot", "sphere", "torus", "knot",
     )  # fmt: skip
     for scene in CATALOGUE:
         assert scene.title[0].isupper()
@@ -99,7 +100,7 @@ def test_a_scene_is_made_anew_and_fills_a_good_part_of_its_picture(name):
     if scene.corner_count > 3:
         assert max(scene.size) <= max(TEACHING_SIZE)
         return
-    is_mesh = name in ("textured-floor", "cube", "teapot", "sphere", "torus", "knot")
+    is_mesh = name in ("textured-floor", "cube", "diced-ball", "teapot", "sphere", "torus", "knot")
     assert (scene.size == TEACHING_SIZE) == (not is_mesh and name not in ("four-layers", "two-buffers"))
 
 

@@ -8,6 +8,8 @@ import pytest
 
 from app.files.open_any import open_any
 from core import Frame, Trace, draw_picture, render
+from core.stages.before_matrices import before_matrices
+from core.tessellation.measured_dice import disc
 from lessons.lectures.scenes import ALL_SCENES
 from lessons.scenes import RED_GREEN_BLUE
 
@@ -136,6 +138,11 @@ CLAIMS = {
     "curve": lambda s: s.document.triangle_count == 6 and len(s.column("transform", "level")) > 7 * 6,
     "curve-in-depth": lambda s: set(s.document.scene.curves.control[0, :, 3]) == {1, 2, 4},
     "hill": lambda s: s.document.triangle_count == 72 and "normal" in s.kinds("transform"),
+    "diced-hill": lambda s: {"cut-split", "cut-dice"} <= s.kinds("transform"),
+    "diced-ball": lambda s: (
+        len(before_matrices(s.document.scene, s.document.settings).meshes[0].positions) == 1352
+        and ((s.ids() >= 0) != disc()).sum() == 16
+    ),
     "cracked-patches": lambda s: (
         (counts := s.column("transform", "count"))[counts > 0].tolist() == [2, 1, 3, 1]
         and s.frame().cover_count[4:44].min(axis=0).size == 64

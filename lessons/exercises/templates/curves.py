@@ -72,3 +72,33 @@ def draw_depth(draws: Draws) -> Draft:
         third.
         Hint: Divide the mixture of x w by that of w, which mixes {w[0]}, {w[1]} and {w[2]}."""
     return by_rule(asked, given, (places, w, t), ("divided-before-cutting",), ("x",))
+
+
+@template("split-and-dice", 1, "Split and dice", "transform", 2)
+def draw_dice(draws: Draws) -> Draft:
+    """Into how many pieces a line is split, and how each is diced."""
+    length, side = draws.whole(18, 120), draws.item((1, 2, 3, 4))
+    reject(length % 16 == 0)
+    given = f"Length: {length} pixels. A grid may be 16 pixels long, a micropolygon {side}. Each half is half as long."
+    asked = f"""REYES splits a line of a patch in halves until each piece fits a grid, and dices each piece into a
+        power of two of parts. How many pieces are there, and how many parts has each?
+        Hint: Halve {length} until it is 16 or less. Two pieces, four, eight ...
+        Hint: Then take one part, two, four ... until a part is no longer than a micropolygon may be.
+        Hint: The first time it is halved, {length} becomes {length} / 2."""
+    wrong = ("parts-not-a-power-of-two", "diced-without-splitting")
+    return by_rule(asked, given, (length, 16, side), wrong, ("pieces", "parts of each"))
+
+
+@template("points-shaded", 1, "Points that REYES shades", "transform", 2)
+def draw_shaded(draws: Draws) -> Draft:
+    """How many points are shaded, whatever is hidden."""
+    patches, columns, rows = draws.whole(2, 6), draws.item((2, 4, 8)), draws.item((2, 4, 8))
+    hidden = draws.whole(1, patches - 1)
+    given = f"""{patches} patches, each diced into {columns} x {rows} micropolygons, with a grid of its own.
+{hidden} of them will be hidden behind others."""
+    asked = f"""How many points does REYES shade?
+        Hint: When does it shade: before or after it finds out what is hidden?
+        Hint: It shades the corners of the micropolygons, each corner of a grid once.
+        Hint: {columns} cells in a row have {columns} + 1 corners."""
+    wrong = ("micropolygons-for-points", "hidden-grids-not-shaded")
+    return by_rule(asked, given, (patches, columns, rows, hidden), wrong)

@@ -89,6 +89,8 @@ LEFT_OUT = (
     "blended-bar",
     "curve-in-depth",
     "hill",
+    "diced-hill",
+    "diced-ball",
     "cracked-patches",
     "fan",
     "triangle-strip",

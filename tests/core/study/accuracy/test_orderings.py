@@ -41,6 +41,18 @@ def test_line() -> None:
     assert bresenham.errors["not-nearest"] == 0
 
 
+def test_dicing() -> None:
+    # Eight patches, every quarter of 31.4 pixels split and diced to at most 4 pixels. The outline is right from 2
+    # pixels on; what is shaded depends on the side, not on what hides it: twice as much for two balls, one unseen.
+    coarse, fine, two = (
+        run("dicing", side=side, layers=layers)["reyes"] for side, layers in ((64, 1), (32, 1), (64, 2))
+    )
+    assert (coarse.errors["outline"], fine.errors["outline"], two.errors["outline"]) == (16, 0, 16)
+    assert (coarse.counts["points shaded"], fine.counts["points shaded"]) == (1352, 5000)
+    assert two.counts["points shaded"] == 2 * 1352
+    assert (coarse.counts["longest list"], two.counts["longest list"]) == (2, 4)
+
+
 def test_tessellation() -> None:
     # The largest second difference of the arch is (-30, -42): six times its length is 309.7, an eighth of it 38.7, so
     # ceil(sqrt(38.7 / 0.5)) = 9 segments keep half a pixel. Halving makes 16, as it can only double; where a curve

@@ -1,0 +1,129 @@
+"""Split and dice measured: shaded points and the outline of a ball, by the side of micropolygons and by layers."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from core.pipeline import render
+from core.records.arrays import Flags, Floats
+from core.records.frame import Frame
+from core.scene import Camera, DirectionalLight, Scene
+from core.settings import Settings
+from core.stages.before_matrices import before_matrices
+from core.study.family import Assignment, StudyFamily
+from core.study.frame_task import FrameTask, color_pictures
+from core.study.record import Axis, ErrorMeasure, Judgement, Pictures, WorkKind, judged
+from core.tessellation.patches import mesh_of_patches
+
+OUTLINE = ErrorMeasure("outline", "Pixels inside or outside of the wrong side of the outline", "pixels")
+SIDE, RADIUS = 48, 20.0
+"""Pixels of the picture on a side, and of the ball's radius."""
+ROUND = 4 / 3 * (2**0.5 - 1)
+"""How far the inner control points of a quarter of a circle stand off, for radius 1: it is at most 0.03 % too large."""
+
+
+def ball_patches() -> Floats:
+    """Return the eight patches (8, 4, 4, 3) of a ball of radius 1 around the origin, y up; the front is outside."""
+    arc = np.array([(1, 0), (1, ROUND), (ROUND, 1), (0, 1)])
+    patches = []
+    for quarter in range(4):
+        around = arc @ np.linalg.matrix_power(np.array([[0.0, 1.0], [-1.0, 0.0]]), quarter)
+        for sign in (1, -1):
+            height = np.broadcast_to(sign * arc[:, 1], (4, 4))[..., None]
+            net = np.concatenate([around[:, None] * arc[None, :, :1], height], axis=2)[..., [1, 2, 0]]
+            # The half below runs around the other way.
+            patches.append(net if sign > 0 else net[::-1])
+    return np.array(patches)
+
+
+def balls(layers: int) -> Scene:
+    """Return balls one behind another, 40 pixels across, on a 48 x 48 picture without perspective."""
+    meshes = []
+    for layer in range(layers):
+        matrix = np.diag([RADIUS, RADIUS, RADIUS, 1.0])
+        matrix[:3, 3] = 0.0, 0.0, -45.0 * layer
+        meshes.append(mesh_of_patches(ball_patches(), name=f"ball {layer}", transform=matrix))
+    camera = Camera(
+        eye=np.array([0.0, 0.0, 100.0]),
+        target=np.zeros(3),
+        projection="orthographic",
+        view_height=float(SIDE),
+        near=10.0,
+        far=200.0 + 45 * layers,
+    )
+    light = DirectionalLight(np.array([-0.5, -0.8, -0.6]))
+    return Scene(tuple(meshes), camera, (light,), (SIDE, SIDE))
+
+
+def disc() -> Flags:
+    """Return (48, 48) bool, the pixels whose centres lie in the ball's outline, a circle."""
+    y, x = np.mgrid[0:SIDE, 0:SIDE] + 0.5 - SIDE / 2
+    inside: Flags = x * x + y * y < RADIUS**2
+    return inside
+
+
+class DicedTask(FrameTask):
+    """Balls that are diced into micropolygons at most ``side`` / 16 pixels long."""
+
+    scene: Scene
+    stage = "transform"
+
+    def __init__(self, scene: Scene, side: int) -> None:
+        super().__init__(scene, 1)
+        self._side = side
+
+    def _sized(self, settings: Settings) -> Settings:
+        return replace(settings, curve_tolerance=self._side)
+
+    def start(self, settings: Settings) -> Callable[[], Frame]:
+        """Prepare one picture, the dicing with it."""
+        return super().start(self._sized(settings))
+
+    def counts(self, settings: Settings, made: Frame) -> dict[str, int]:
+        """Return the points that are shaded, the triangles, and the fragments that a pixel has at most."""
+        made_scene = before_matrices(self.scene, self._sized(settings))
+        assert isinstance(made_scene, Scene)
+        return {
+            "points shaded": sum(len(mesh.positions) for mesh in made_scene.meshes),
+            "triangles": made.statistics["transform"].outgoing,
+            "longest list": int(made.cover_count.max()),
+        }
+
+    def judge(self, settings: Settings, made: Frame) -> Judgement:
+        """Count the pixels that the exact outline decides otherwise."""
+        return judged({OUTLINE.name: float(((made.primitive >= 0) != disc()).sum())})
+
+    def pictures(self, settings: Settings, made: Frame) -> Pictures:
+        """Return the colours, and those of micropolygons half a pixel long."""
+        fine = render(self.scene, replace(settings, curve_tolerance=8))
+        return color_pictures(made.color, fine.color)
+
+
+def make_balls(assignment: Assignment) -> DicedTask:
+    """Make balls one behind another."""
+    return DicedTask(balls(int(assignment.dials["layers"])), int(assignment.dials["side"]))
+
+
+DICING = StudyFamily(
+    "dicing",
+    "Split and dice",
+    ("tessellation",),
+    (
+        WorkKind(
+            "balls",
+            "Balls one behind another",
+            "frame",
+            (
+                Axis(
+                    "side", "Side of a micropolygon", "1/16 px", (16, 32, 64, 128), default=64, is_cost=True
+                ),
+                Axis("layers", "Balls", "", (1, 2, 4), default=1),
+            ),
+        ),
+    ),
+    (OUTLINE,),
+    make_balls,
+    Settings(tessellation="reyes", shading="gouraud"),
+    only=("reyes",),
+)
