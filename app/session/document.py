@@ -239,7 +239,9 @@ def same_view(scene: AnyScene, columns: int, rows: int) -> TeachingRaster:
 def central_triangle(document: Document) -> int:
     """Return the triangle nearest to the middle of the view that has pixels to look at, as far as one has, or 0."""
     whole = replace(document, raster=same_view(document.scene, *TEACHING_LIMIT), triangle=None)
-    source = TraceSource(whole.traced_scene, document.settings, None)
+    # How curves are cut depends on the size: that of the picture, which the triangle in focus is part of.
+    drawn = document.scene if document.scene.makes_positions else whole.traced_scene
+    source = TraceSource(drawn, document.settings, None)
     primitive = source.picture.primitive
     rows, columns = np.nonzero(primitive >= 0)
     if len(rows) == 0:
@@ -249,7 +251,7 @@ def central_triangle(document: Document) -> int:
     seen = primitive[rows, columns][by_distance]
     triangles = seen[np.sort(np.unique(seen, return_index=True)[1])][:NEAR_THE_MIDDLE]
     vertices = source.geometry.vertices
-    enlarged = np.array(document.scene.size) / whole.traced_scene.size
+    enlarged = np.array(document.scene.size) / drawn.size
     first, second, third = vertices.window[vertices.corners[triangles].T, :2] * enlarged
     with np.errstate(invalid="ignore"):
         area = np.nan_to_num(np.abs(np.linalg.det(np.stack([second - first, third - first], axis=1))) / 2)

@@ -24,8 +24,8 @@ def dice_or_split(longest: list[float], side: float, halvings: int) -> int:
     if longest[0] > GRID_SIDE and halvings < MOST_HALVINGS:  #: split
         return 0
     parts = 1
-    for length in longest:
-        if length <= side:
+    for size in longest:
+        if size <= side:
             break
         parts = 2 * parts  #: dice
     return parts

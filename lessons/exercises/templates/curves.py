@@ -99,6 +99,7 @@ def draw_shaded(draws: Draws) -> Draft:
     asked = f"""How many points does REYES shade?
         Hint: When does it shade: before or after it finds out what is hidden?
         Hint: It shades the corners of the micropolygons, each corner of a grid once.
-        Hint: {columns} cells in a row have {columns} + 1 corners."""
+        Hint: {columns} cells in a row have {columns} + 1 corners, and {rows} rows have {rows} + 1 lines of them. There
+        are {patches} grids."""
     wrong = ("micropolygons-for-points", "hidden-grids-not-shaded")
     return by_rule(asked, given, (patches, columns, rows, hidden), wrong)

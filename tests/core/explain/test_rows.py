@@ -41,14 +41,15 @@ def test_a_key_has_one_row() -> None:
         explains("depth.*.compare")(lambda step: "")
 
 
+def answer_of_transform(values: dict) -> float:
+    """Of a piece whether it stays one, of a bound the number of pieces, else x after the step."""
+    if values.get("halvings", -1) >= 0:
+        return values["parts"] != 0 if "parts" in values else 1 - values["is_flat"]
+    return values["count"] if values.get("count", -1) >= 0 else values["after"][0]
+
+
 ANSWERS = {
-    "transform": lambda values: (
-        1 - values["is_flat"]
-        if values.get("halvings", -1) >= 0
-        else values["count"]
-        if values.get("count", -1) >= 0
-        else values["after"][0]
-    ),
+    "transform": answer_of_transform,
     "edges": lambda values: values["a"],
     "bin": lambda values: {"outside": 0, "inside": 1}.get(values["verdict"], 2),
     "raster": lambda values: 1 - values["covered"],

@@ -62,6 +62,7 @@ def test_tessellation() -> None:
         "uniform": 6,
         "bound": 9,
         "adaptive": 16,
+        "reyes": 256,
     }
     assert hook["adaptive"].counts["segments"] < hook["bound"].counts["segments"]
     for found in (arch, hook):
