@@ -35,18 +35,15 @@ def curve_of(control: Floats) -> ClipScene:
     return ClipScene(clip[None, [0, -1]], size=SIZE, kind="segments", curves=curves)
 
 
-def deviation(scene: ClipScene, settings: Settings) -> float:
-    """Return how far the farthest of many points of a scene's first curve is from its segments, in pixels."""
+def deviation(scene: ClipScene, settings: Settings, curve: int = 0) -> float:
+    """Return how far the farthest of many points of a curve of a scene is from its segments, in pixels."""
     made = tessellated(scene, settings)
     assert isinstance(made.scene, ClipScene)
     every = np.arange(POINTS)
-    curve = levels(*shares(every, np.full(POINTS, POINTS - 1)), np.repeat(made.control[:1], POINTS, axis=0))[
-        -1
-    ]
-    places, ends = (
-        _in_window(curve[:, 0], scene.size),
-        _in_window(made.scene.clip[made.owner[::2] == 0], scene.size),
-    )
+    control = np.repeat(made.control[curve][None], POINTS, axis=0)
+    points = levels(*shares(every, np.full(POINTS, POINTS - 1)), control)[-1][:, 0]
+    places = _in_window(points, scene.size)
+    ends = _in_window(made.scene.clip[made.owner[::2] == curve], scene.size)
     nearest = np.full(POINTS, np.inf)
     for a, b in ends:
         chord, away = b - a, places - a

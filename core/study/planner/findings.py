@@ -16,9 +16,10 @@ from core.interpolation.interpolation import value_plane
 from core.pipeline import draw
 from core.records.arrays import Floats, Integers
 from core.records.frame import StageCount
-from core.records.words import nouns
-from core.scene import AnyScene, Scene, Texture
-from core.settings import WHOLE_NUMBERS, Settings
+from core.records.words import counted, noun_of, nouns
+from core.scene import AnyScene, ClipScene, Scene, Texture
+from core.settings import DEFAULTS, WHOLE_NUMBERS, Settings
+from core.stages.before_matrices import before_matrices, tessellated
 from core.stages.closed_meshes import is_closed
 from core.stages.declared import STAGES
 from core.stages.fragment_color import vertex_stage
@@ -36,9 +37,15 @@ WANTED = 0.25
 """Pixels that a facet may lie away."""
 
 
-def tessellations(scene: AnyScene) -> tuple[Tessellation, ...]:
-    """Return advice for every mesh of a scene, which is not applied; none where a vertex shader may bend them."""
-    if not isinstance(scene, Scene) or scene.program is not None:
+def tessellations(scene: AnyScene, settings: Settings = DEFAULTS) -> tuple[Tessellation, ...]:
+    """Return advice for every mesh or curve of a scene, cut as the settings say; none where a vertex shader bends it.
+
+    It is not applied.
+    """
+    scene = before_matrices(scene, settings)
+    if not isinstance(scene, Scene):
+        return _of_curves(scene, settings)
+    if scene.program is not None:
         return ()
     vertices = vertex_stage(scene)
     assert vertices.normals is not None
@@ -54,6 +61,33 @@ def tessellations(scene: AnyScene) -> tuple[Tessellation, ...]:
             length = np.linalg.norm(window[:, end] - window[:, start], axis=1)
             largest = max(largest, float(sagitta(length, turned)[in_front].max(initial=0.0)))
         found.append(_advice(mesh.name, len(corners), largest))
+    return tuple(found)
+
+
+def _of_curves(scene: ClipScene, settings: Settings) -> tuple[Tessellation, ...]:
+    """Return advice for every curve whose points are all in front of the eye."""
+    if scene.curves is None:
+        return ()
+    # Only scenes of curves wait for these.
+    from core.tessellation.measured import deviation
+    from core.tessellation.segments import TOLERANCE_PARTS
+
+    found, made = [], tessellated(scene, settings)
+    to_wanted = replace(settings, tessellation="bound", curve_tolerance=round(WANTED * TOLERANCE_PARTS))
+    wanted = tessellated(scene, to_wanted)
+    for number, control in enumerate(scene.curves.control):
+        if not (control[:, 3] > 0).all():
+            continue
+        away, count, enough = (
+            deviation(scene, settings, number),
+            len(made.cuts[number].step) - 1,
+            len(wanted.cuts[number].step) - 1,
+        )
+        text = (
+            f"curve {number}: its {counted(count, 'segment')} {noun_of(count, 'lies', 'lie')} up to {away:.3g} pixels "
+            f"away; {counted(enough, 'equal step')} of t {noun_of(enough, 'is', 'are')} surely within {WANTED:g}."
+        )
+        found.append(Tessellation(f"curve {number}", count, away, enough, text))
     return tuple(found)
 
 

@@ -275,7 +275,7 @@ def plan(
         )
     whole = trials.compare(settings, everything)
     seconds = costs.seconds((everything, settings)) or (None, None)
-    advice = tessellations(scene)
+    advice = tessellations(scene, everything)
     return Plan(
         tolerance, everything, settings, decisions, findings, advice, whole.error, whole.pixels, *seconds
     )

@@ -20,6 +20,7 @@ from core.study.planner.records import PHRASES, figure
 from core.study.planner.trials import Costs, difference, shown
 from core.study.workloads import sphere_mesh, sphere_scene, textured_quad
 from core.transform.vertex_stage import transform_vertices
+from lessons.scenes import make_scene
 
 
 class WithoutMultisampling(Costs):
@@ -181,3 +182,14 @@ def test_a_plan_says_what_rays_in_a_tree_and_scan_lines_would_ask() -> None:
     covered = render(scene, Settings(cull="none")).cover_count
     text = f"where triangles overlap: in {(covered > 1).sum():,} of {(covered > 0).sum():,} pixels"
     assert text in said
+
+
+def test_curves_are_advised_with_what_was_measured_and_what_the_bound_asks() -> None:
+    (found,) = tessellations(make_scene("curve"), Settings(segments=6))
+    assert (found.triangles, found.wanted, round(found.deviation, 3)) == (6, 13, 0.831)
+    assert found.text == (
+        "curve 0: its 6 segments lie up to 0.831 pixels away; 13 equal steps of t are surely within 0.25."
+    )
+    coarse, fine = (tessellations(make_scene("hill"), Settings(segments=n))[0] for n in (3, 6))
+    assert (coarse.triangles, fine.triangles) == (18, 72)
+    assert coarse.deviation > fine.deviation
