@@ -7,7 +7,7 @@ from core.records.curves import Curves
 from core.scene import Camera, ClipScene, Scene
 from core.settings import DEFAULTS
 from core.stages.before_matrices import before_matrices
-from core.tessellation.measured_dice import balls
+from core.tessellation.ball import balls
 from core.tessellation.patches import mesh_of_patches
 from lessons.shapes import FACE_COLORS, linear_color
 from lessons.world_scenes import TEACHING_SIZE, sun

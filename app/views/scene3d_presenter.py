@@ -311,12 +311,12 @@ class Scene3dPresenter(QObject):
         else:
             parts.append("Given in clip space: the box is the view volume, its near face in front.")
         if self.focus is not None:
-            parts.append("Drag {a_vertex} to move it.")
+            parts.append("Drag {a_vertex} to move it." if not document.scene.makes_positions else "")
         elif count <= LARGEST_WITH_CAMERA:
             parts.append("Click a {one} to choose it.")
         if count > MOST_TRIANGLES:
             parts.append(f"One in {-(-count // MOST_TRIANGLES)} is drawn.")
-        return drawn.text(" ".join(parts))
+        return drawn.text(" ".join(filter(None, parts)))
 
     # Acting.
 

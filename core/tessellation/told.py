@@ -325,7 +325,9 @@ def scheme_table(trace: StageTrace, rows: Integers, position: int) -> StepTable:
         FilledColumn("second", "The second one.", partial(_point, name="second_point")),
         FilledColumn("mixture", "Share s of the first and t of the second.", partial(_point, name="after")),
     )
-    return filled_table(trace, mixtures, position, title, "Point", labels, columns, closing=int(rows[-1]))
+    return filled_table(
+        trace, mixtures, position, title, "Point", labels, columns, closing=int(rows[-1]), grows=True
+    )
 
 
 def _point(step: StepValues, name: str) -> tuple[float, ...]:

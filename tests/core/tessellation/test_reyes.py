@@ -8,8 +8,9 @@ from hypothesis import strategies as st
 from core import Settings, render, trace
 from core.framebuffer.display import to_display
 from core.stages.before_matrices import before_matrices, tessellated
+from core.tessellation.ball import balls
 from core.tessellation.bezier import levels, shares
-from core.tessellation.measured_dice import balls, disc
+from core.tessellation.measured_dice import disc
 from core.tessellation.reyes import GRID_SIDE, control_length, reyes
 from core.tessellation.segments import MOST_HALVINGS
 from lessons.curve_scenes import hill
