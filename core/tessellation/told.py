@@ -69,7 +69,7 @@ def piece_count(step: StepValues) -> Asked | None:
 @explains("transform.cut-bound.count", asks=piece_count, decides=True)
 def count(step: StepValues) -> Said:
     """The least number that the bound allows."""
-    found, tolerance = step.whole("count"), step.named("tolerance", r"\varepsilon")
+    found, tolerance = step.whole("count"), step.named("tolerance", r"\epsilon")
     text = (
         f"{_curve(step)}: {counted(found, 'equal step')} of {_letter(step)} keep it within {tolerance} pixels, as n "
         "steps divide the deviation by n²."
@@ -111,7 +111,7 @@ def flat(step: StepValues) -> Asked | None:
 @explains("transform.cut-halve.verdict", asks=flat, decides=True)
 def verdict(step: StepValues) -> Said:
     """One straight piece, or two halves."""
-    distance, tolerance = step.named("distance", "d"), step.named("tolerance", r"\varepsilon")
+    distance, tolerance = step.named("distance", "d"), step.named("tolerance", r"\epsilon")
     if step.whole("halvings") == MOST_HALVINGS and distance.value > tolerance.value:
         return f"{_piece(step)} was halved {MOST_HALVINGS} times, the limit: it stays one piece."
     found, text = (
