@@ -17,6 +17,7 @@ from lessons.assembled_scenes import (
 )
 from lessons.bone_scenes import bent_bar, blended_bar, twisted_tube
 from lessons.curve_scenes import arch, ball, cracked, curve_in_depth, hill
+from lessons.layer_scenes import crossing_glass, four_layers, intersecting
 from lessons.run_place import FIRST_STEP, RunPlace
 from lessons.shapes import FACE_COLORS, cube, knot, linear_color, sphere, teapot, torus
 from lessons.window_scenes import (
@@ -107,30 +108,6 @@ def near_plane() -> Scene:
     )
     camera = Camera(eye=np.array([0.0, 1.0, 0.0]), target=np.array([0.0, 0.7, -3.0]), near=0.5, far=20.0)
     return Scene((triangle,), camera, (sun(),), TEACHING_SIZE)
-
-
-def intersecting() -> ClipScene:
-    """Two triangles that pass through each other: no order of drawing them is right everywhere."""
-    size = TEACHING_SIZE
-    rising = window_triangle([4, 60, 10], [8, 20, 44], [0.1, 0.9, 0.3], [1, 1, 1], size)
-    falling = window_triangle([4, 60, 54], [24, 4, 45], [0.8, 0.2, 0.4], [1, 1, 1], size)
-    colors = np.stack([np.tile(linear_color(color), (3, 1)) for color in FACE_COLORS[:2]])
-    return ClipScene(np.stack([rising, falling]), colors, size)
-
-
-def crossing_glass() -> ClipScene:
-    """The same two as panes of glass that let half of the light through: neither order blends all pixels right."""
-    opaque = intersecting()
-    colors = np.asarray(opaque.attributes) * [1, 1, 1, 0.5]
-    return ClipScene(opaque.clip, colors, opaque.size)
-
-
-def four_layers() -> ClipScene:
-    """Four layers over the whole picture, drawn from near to far: an early depth test shades the first one alone."""
-    size = (32, 24)
-    layers = [window_triangle([0, 64, 0], [0, 0, 48], [z] * 3, [1, 1, 1], size) for z in (0.3, 0.5, 0.7, 0.9)]
-    colors = np.stack([np.tile(linear_color(color), (3, 1)) for color in FACE_COLORS[:4]])
-    return ClipScene(np.stack(layers), colors, size)
 
 
 CATALOGUE = (

@@ -59,7 +59,7 @@ def reyes(rows: Floats, segments: int, tolerance: float) -> CurveSteps:
             waiting += [(2 * first + 1, depth + 1, right), (2 * first, depth + 1, left)]
         else:
             ends += (first * width + width * np.arange(1, parts + 1) / parts).tolist()
-        size = {"length": longest[0], "part_length": longest[-1], "side": tolerance}
+        size = {"piece_length": longest[0], "part_length": longest[-1], "micro_side": tolerance}
         tests.append({**size, "halvings": depth, "parts": parts, "place": first})
     # All ends are halves of halves: in whole steps of the shortest.
     steps = int(1 / np.diff(ends).min())

@@ -136,7 +136,7 @@ def _part(step: StepValues) -> str:
 
 def is_split(step: StepValues) -> Asked | None:
     """Ask whether a part is split."""
-    length = spoken(step.number("length"))
+    length = spoken(step.number("piece_length"))
     text = f"{_part(step)}, is {length} pixels long by its control points. Is it split?"
     return choice(
         text, int(step.kind != "cut-split"), f"Above {GRID_SIDE} pixels it is split, else it is diced."
@@ -146,7 +146,7 @@ def is_split(step: StepValues) -> Asked | None:
 @explains("transform.cut-split.split", asks=is_split, decides=True)
 def split(step: StepValues) -> Said:
     """A part too long for one grid."""
-    length = step.named("length", "l")
+    length = step.named("piece_length", "l")
     if isinf(length.value):
         return f"{_part(step)}, reaches behind the eye: it is split in two."
     text = f"{_part(step)}, is {length} pixels long by its control points, too long for one grid: it is split in two."
@@ -156,7 +156,7 @@ def split(step: StepValues) -> Said:
 @explains("transform.cut-dice.length", asks=is_split, decides=True)
 def is_short(step: StepValues) -> Said:
     """A part that one grid holds."""
-    length = step.named("length", "l")
+    length = step.named("piece_length", "l")
     if not length.value <= GRID_SIDE:
         return f"{_part(step)}, was split {MOST_HALVINGS} times, the limit: it is diced."
     text = f"{_part(step)}, is {length} pixels long by its control points, short enough for one grid: it is diced."
@@ -166,7 +166,7 @@ def is_short(step: StepValues) -> Said:
 @explains("transform.cut-dice.dice")
 def diced(step: StepValues) -> Said:
     """A power of two, so that each part is short enough."""
-    parts, side, length = step.whole("parts"), step.number("side"), step.number("part_length")
+    parts, side, length = step.whole("parts"), step.number("micro_side"), step.number("part_length")
     text = f"{_part(step)}, is diced into {counted(parts, 'part')}: by its control points the longest is"
     if parts > 1 and length <= side:
         return f"{text} {spoken(length)} pixels long, and of half as many it was longer than {spoken(side)}."
@@ -276,8 +276,8 @@ shows(
         "chord_end": VariableText("chord to", "Where its chord ends, in pixels."),
         "distance": VariableText("d", "Distance of the control point from the chord, in pixels."),
         "tolerance": VariableText("ε", "How far a curve may be from its pieces, in pixels."),
-        "length": VariableText("l", "Length of the longest control polygon, in pixels."),
-        "side": VariableText("side", "How long a micropolygon may be, in pixels."),
+        "piece_length": VariableText("l", "Length of the longest control polygon, in pixels."),
+        "micro_side": VariableText("side", "How long a micropolygon may be, in pixels."),
         "parts": VariableText("parts", "Micropolygons along the part."),
         "part_length": VariableText(
             "longest", "Length of the longest of them by its control points, in pixels."

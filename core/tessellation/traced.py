@@ -42,9 +42,11 @@ CUT_OPERATIONS: dict[str, tuple[Operation, ...]] = {
         ),
         Operation("verdict", "flat", {"is_flat": RETURN}, ("tolerance", "halvings")),
     ),
-    "cut-split": (Operation("split", "split", (), ("owner", "halvings", "place", "side", "length")),),
+    "cut-split": (
+        Operation("split", "split", (), ("owner", "halvings", "place", "micro_side", "piece_length")),
+    ),
     "cut-dice": (
-        Operation("length", "split", (), ("owner", "halvings", "place", "side", "length")),
+        Operation("length", "split", (), ("owner", "halvings", "place", "micro_side", "piece_length")),
         Operation("dice", "dice", ("parts",), ("part_length",)),
     ),
 }

@@ -37,7 +37,7 @@ def test_no_micropolygon_is_longer_than_its_side(corners, side):
         assert sides.max() <= side + 1e-9
     for test in cut.tests:
         if test["parts"]:
-            assert test["length"] <= GRID_SIDE or test["halvings"] == MOST_HALVINGS
+            assert test["piece_length"] <= GRID_SIDE or test["halvings"] == MOST_HALVINGS
             assert test["part_length"] <= side
 
 
