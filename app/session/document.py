@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.session.memory import check_free
-from core import STAGES, Settings, Trace, trace
+from core import Settings, Trace, trace
 from core.coverage.pixel_runs import fill_traits
 from core.records.arrays import Floats, cached_property
 from core.scene import AnyScene, ClipScene
@@ -324,23 +324,6 @@ def edits_beside(document: Document) -> Document:
 def is_typed(scene: AnyScene) -> bool:
     """Return whether corners can be typed in window coordinates."""
     return isinstance(scene, ClipScene)
-
-
-__all__ = [
-    "STAGES",
-    "Document",
-    "TeachingRaster",
-    "central_triangle",
-    "check_drawing",
-    "edits_beside",
-    "fit_region",
-    "focus_on",
-    "is_typed",
-    "open_document",
-    "same_view",
-    "shortened",
-    "window_corners_of",
-]
 
 
 # The document in which one method's run can be stepped, at the place that matters: all of a picture, or a

@@ -22,15 +22,9 @@ from core.methods import method
 from core.records.arrays import Flags, Floats, Integers
 from core.scene import Light
 from core.shading.lighting import (
-    Lighting,
-    Reflectance,
     Surface,
-    blinn_phong,
     dot,
-    light_surface,
     planes,
-    reflectance,
-    trace_lighting,
 )
 
 # A method of shading that lights points by a rule of its own: an edited listing.
@@ -52,24 +46,6 @@ class LightRule(ABC):
 
 # Shading: where the lighting rule is evaluated: at every fragment, vertex or face, or nowhere.
 
-
-__all__ = [
-    "Lighting",
-    "Reflectance",
-    "blinn_phong",
-    "centroids",
-    "face_normals",
-    "flat",
-    "gouraud",
-    "light_surface",
-    "outward_normals",
-    "phong",
-    "reflectance",
-    "shade",
-    "shaded_color",
-    "trace_lighting",
-    "unlit",
-]
 
 LightOf = Callable[[Floats, Floats, Integers], tuple[Floats, Floats]]
 """From position (M, 3), normal (M, 3) and the vertex (M,) that has the material: the two lights (M, 3)."""

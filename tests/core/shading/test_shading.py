@@ -5,16 +5,15 @@ from hypothesis import strategies as st
 
 from core.methods import table
 from core.scene import DirectionalLight, Material, PointLight
-from core.shading.lighting import plain_lights, plain_material
-from core.shading.shading import (
+from core.shading.lighting import (
     blinn_phong,
-    face_normals,
     light_surface,
+    plain_lights,
+    plain_material,
     reflectance,
-    shade,
-    shaded_color,
     trace_lighting,
 )
+from core.shading.shading import face_normals, shade, shaded_color
 from tests.core.shading.seen_sides import is_seen_from_behind
 
 DOWN = DirectionalLight([0, 0, -1], [1.0, 0.5, 0.25])

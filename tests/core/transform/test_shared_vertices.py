@@ -11,7 +11,8 @@ from core.coverage.snapping import place_corners
 from core.culling.culling import plane_distances
 from core.methods import table
 from core.records.frame import StageCount
-from core.shading.shading import centroids, light_surface
+from core.shading.lighting import light_surface
+from core.shading.shading import centroids
 from core.stages.declared import STAGES
 from core.stages.vertices import Geometry, process_geometry
 from core.transform.matrices import rotation
