@@ -17,6 +17,7 @@ from core.lines.measured_clipping import LINE_CLIPPING
 from core.methods import table
 from core.settings import families
 from core.shading.measured_shadows import SHADOW
+from core.study.bands import BANDS
 from core.study.family import StudyFamily
 from core.study.whole_picture import PIPELINE, standing_in
 from core.tessellation.measured import TESSELLATION
@@ -48,6 +49,7 @@ OWN = (
     SKINNING,
     PRESENTATION,
     FLUSHING,
+    BANDS,
     TESSELLATION,
     DICING,
 )

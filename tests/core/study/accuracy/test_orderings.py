@@ -6,6 +6,7 @@ import pytest
 from core.methods import table
 from core.settings import no_effect
 from core.study import study_families
+from core.study.bands import amdahl_limit
 from core.study.whole_picture import PICTURE
 from core.study.workloads import window_mesh
 from tests.core.study.accuracy.untimed_runs import run
@@ -376,3 +377,14 @@ def test_skinning() -> None:
         assert found["linear"].errors["lost-width"] == pytest.approx(1e6 * (1 - 0.5**0.5))
         assert found["dual-quaternion"].errors["lost-width"] == pytest.approx(0, abs=1e-6)
         assert found["linear"].counts["vertices"] == 17 * 16
+
+
+def test_bands() -> None:
+    # Each of three processes transforms all 4 * 8 * 7 triangles; each covered pixel is drawn by one of them.
+    three, alone = (run("bands", processes=count, rings=8) for count in (3, 1))
+    for name in ("unlit", "gouraud", "phong"):
+        assert three[name].counts["triangles transformed by all"] == 3 * 4 * 8 * 7
+        assert three[name].counts["pixels covered by all"] == alone[name].counts["pixels covered by all"]
+        assert three[name].errors["wrong-pixels"] == 0
+    # All work shared: no gain. Nothing shared: as many times as fast. Half shared: never twice as fast.
+    assert [amdahl_limit(*parts, 4) for parts in ((8, 0), (0, 8), (4, 4))] == [8, 2, 5]
