@@ -39,7 +39,7 @@ def place_after(step: StepValues) -> Asked | None:
 def blended(step: StepValues) -> Said:
     """A step towards another shape."""
     axis = step.operation
-    k, target, weight = AXES.index(axis), step.whole("target"), step.named("weight", "w")
+    k, target, weight = AXES.index(axis), step.whole("target"), step.named("weight", r"\lambda")
     before, after = (
         named(below(axis, name), step.number(f"{column}_{axis}"))
         for name, column in (("before", "before"), ("after", "after"))
@@ -77,7 +77,8 @@ def summed(step: StepValues) -> Said:
     moved, value = step.rows("moved"), step.number(f"after_{axis}")
     used = [joint for joint, weight in enumerate(weights) if weight > 0]
     parts = (
-        named(f"w_{joint}", weights[joint]) * named(f"{axis}_{joint}", moved[joint][k]) for joint in used
+        named(rf"\lambda_{joint}", weights[joint]) * named(f"{axis}_{joint}", moved[joint][k])
+        for joint in used
     )
     if len(used) == 1:
         text = f"{_vertex(step)} hangs on bone {used[0]} alone, so its {axis} is {spoken(value)}."
@@ -97,7 +98,7 @@ def turned(step: StepValues) -> Said:
     k = max(range(3), key=lambda i: abs(normal[i]))
     cofactors = (np.cross(b, c), np.cross(c, a), np.cross(a, b))
     sums = [float(row @ np.array(rest)) for row in cofactors]
-    length = named(r"\ell", float(np.sqrt(sum(each * each for each in sums))))
+    length = named("L", float(np.sqrt(sum(each * each for each in sums))))
     parts = total(
         [
             named(f"c_{{{k + 1}{i + 1}}}", float(cofactors[k][i])) * named(f"n_{AXES[i]}", rest[i])
@@ -129,7 +130,7 @@ def _added(step: StepValues, name: str, column: str, part: str, symbol: str) -> 
     """Return what is said of a sum of four numbers, with the formula of the one that grows most."""
     before, own, after = (step.vector(each) for each in (column, part, name))
     k = max(range(4), key=lambda i: abs(after[i] - before[i]))
-    letter, weight = QUATERNION[k], step.named("weight", "w")
+    letter, weight = QUATERNION[k], step.named("weight", r"\lambda")
     new, old = named(f"{letter}_{{\\mathrm{{new}}}}", after[k]), named(letter, before[k])
     signed = named(symbol + f"_{letter}", own[k])
     value = old + weight * signed if step.whole("side") > 0 else old - weight * signed
@@ -153,7 +154,7 @@ def dual(step: StepValues) -> Said:
 @explains("transform.move.length")
 def length(step: StepValues) -> Said:
     """How long the sum is."""
-    found, parts = step.named("length", r"\ell"), step.vector("sum_real")
+    found, parts = step.named("length", "L"), step.vector("sum_real")
     squares: list[Named] = [named(letter, value) for letter, value in zip(QUATERNION, parts, strict=True)]
     text = f"{_vertex(step)}: the sum of its turns has the length {found}, by which both sums are divided."
     return text, formula_of(found.equals(call("sqrt", total([each**2 for each in squares]))))
@@ -190,14 +191,14 @@ shows(
         "target": VariableText("shape", "Number of the shape that is added."),
         "bone": VariableText("bone", "Number of the bone."),
         "bones": VariableText("bones", "How many bones the vertex hangs on."),
-        "weight": VariableText("weight", "How much of the shape, or of the bone, counts."),
+        "weight": VariableText("λ", "How much of the shape, or of the bone, counts."),
         "normal": VariableText("normal", "The vertex's normal after deformation, in object space."),
         "side": VariableText("side", "1: the quaternion is added; −1: its negative is, the same turn."),
         "rotation": VariableText("q", "The bone's turn as a unit quaternion: w, x, y, z."),
         "dual": VariableText("d", "The bone's move, the dual part of its quaternion."),
         "sum_real": VariableText("sum of q", "Sum of the turns so far."),
         "sum_dual": VariableText("sum of d", "Sum of the moves so far."),
-        "length": VariableText("length", "Length of the sum of turns."),
+        "length": VariableText("L", "Length of the sum of turns."),
         "unit_real": VariableText("q (unit)", "The sum of turns at length 1."),
         "unit_dual": VariableText("d (unit)", "The sum of moves, divided by the same length."),
         "turned": VariableText("turned", "The position at rest, turned about the origin of object space."),
