@@ -247,7 +247,7 @@ class Scene3dPresenter(QObject):
         cursor, trace = self._moment.cursor, self._moment.trace
         dropped = is_dropped(trace, cursor.stage, cursor.position)
         assert self._space is not None
-        scene = self._space.scene
+        scene = self._space.drawn
         if self.focus is not None or not dropped.any() or dropped.all():
             return scene, None
         left = trace.source.geometry.assembled.triangle[~dropped]

@@ -16,7 +16,7 @@ from app.views.box_marks import SpaceMark, box_marks
 from core.clipping.planes import clip_segments
 from core.clipping.sutherland_hodgman import DEPTH_PLANES, clip_primitives
 from core.culling.culling import KEPT, REASONS, plane_distances
-from core.records.arrays import Floats, Integers
+from core.records.arrays import Floats, Integers, cached_property
 from core.records.primitives import Primitives, own_corners
 from core.records.words import nouns
 from core.scene import AnyScene, Camera, ClipScene, Mesh, Scene
@@ -61,6 +61,17 @@ class ViewSpace:
     def is_world(self) -> bool:
         """Whether it is the world of meshes, rather than the box of the view volume."""
         return isinstance(self.scene, Scene)
+
+    @cached_property
+    def drawn(self) -> AnyScene:
+        """The scene with its positions as they are made: the settings of the view do not make them anew."""
+        scene = self.scene
+        if not scene.makes_positions:
+            return scene
+        if isinstance(scene, ClipScene):
+            return replace(scene, curves=None)
+        made = (replace(mesh, patches=None, deformation=None, rest=None) for mesh in scene.meshes)
+        return replace(scene, meshes=tuple(made))
 
     def place(self, clip: Floats) -> Floats:
         """Return (..., 3) places of clip positions (..., 4); NaN where w <= 0 has none in the box."""
