@@ -15,6 +15,7 @@ functions serve the picture (in batches, nothing kept) and the trace (a few tria
 """
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -28,6 +29,7 @@ from core.antialiasing.resolve import (
     finer_settings,
     grown,
     in_squares,
+    inner_of,
     join_bands,
     reach_of,
     resolve_frame,
@@ -38,7 +40,7 @@ from core.coverage.pixel_runs import Raster
 from core.depth.depth import NearestFragments, Stored
 from core.families import suited
 from core.lines.wireframe_fragments import weigh_alpha, writes_depth
-from core.records.arrays import Integers, Singles
+from core.records.arrays import Floats, Integers, Singles
 from core.records.frame import Frame, Samples, StageCount
 from core.resolved import resolve
 from core.scene import AnyScene, ClipScene, Texture
@@ -58,6 +60,9 @@ from core.stages.fragments import (
 from core.stages.hidden_surfaces import Visible, decide_fragments
 from core.stages.needs import check_edits
 from core.stages.vertices import Before, Geometry, process_geometry
+
+if TYPE_CHECKING:
+    from core.antialiasing.temporal import MixedPicture
 
 SAMPLE_BAND = 1 << 21
 """Samples that are drawn in one go: the numbers of more would take too much memory."""
@@ -141,6 +146,8 @@ def draw(
         return draw_areas(scene, settings, raster, chosen)
     if sampling.is_filtered:
         return draw_filtered(scene, settings, raster, chosen)
+    if sampling.is_temporal:
+        return draw_temporal(scene, settings, raster, chosen)
     if sampling.side:
         return draw_supersampled(scene, settings, raster, chosen, sampling.side)
     if len(sampling.position) > 1:
@@ -262,6 +269,51 @@ def draw_filtered(
 
     wide = around_edges(raster)
     return smoothed_frame(draw_centers(scene, settings, wide, chosen), wide, raster)
+
+
+# The mean of pictures over time.
+
+
+def draw_temporal(
+    scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | Before | None = None
+) -> Frame:
+    """Draw the ``chosen`` (T,) triangles, or all, at the pixels' centres, and mix the picture with those before."""
+    frame = draw_centers(scene, settings, raster, chosen)
+    with frame.statistics["resolve"]:
+        mixed, inner = mixed_pictures(scene, settings, raster, chosen)
+        color = mixed[-1].kept[inner].astype(np.float32)
+    return replace(frame, color=color)
+
+
+def mixed_pictures(
+    scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | Before | None = None
+) -> "tuple[list[MixedPicture], tuple[slice, slice]]":
+    """Return all pictures of a sequence, mixed one after another, and where the raster's pixels stand in them."""
+    from core.antialiasing.moving import moves_camera, scene_before
+    from core.antialiasing.temporal import mix_pictures
+
+    rule = resolve(settings).method("history").function()
+    follows = rule.follows_camera and moves_camera(scene)
+    wide = replace(raster, region=None) if follows else grown(raster, 1)
+    # Reprojection needs depths that are not rounded to the buffer's format.
+    plain = replace(settings, antialiasing="none")
+    in_depth = replace(plain, depth="z-float32")
+
+    def draw_one(age: int, point: tuple[float, float]) -> tuple[Singles, Floats]:
+        then, counts = scene_before(scene, age), {stage: StageCount() for stage in STAGES}
+        geometry = process_geometry(then, plain, counts, chosen)
+        if geometry.outlines is None:
+            geometry = geometry.moved(0.5 - point[0], 0.5 - point[1])
+        drawn = draw_geometry(then, geometry, wide, counts)
+        if not follows or plain.depth == in_depth.depth:
+            return drawn.color, drawn.depth.astype(np.float64)
+        geometry = process_geometry(then, in_depth, counts, chosen).moved(0.5 - point[0], 0.5 - point[1])
+        return drawn.color, draw_geometry(then, geometry, wide, counts).depth.astype(np.float64)
+
+    first_column, first_row, _, _ = wide.bounds
+    origin = first_column + raster.center, first_row + raster.center
+    found = mix_pictures(scene, rule, settings.pictures, settings.blend_share / 100, origin, draw_one)
+    return found, inner_of(wide, raster)
 
 
 # Several samples a pixel.

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from core.methods import Method, ReplacedName, is_registered, table
 from core.records.arrays import cached_property
-from core.settings import FAMILIES, Settings, import_methods
+from core.settings import FAMILIES, Settings, families, no_effect
 
 if TYPE_CHECKING:
     from core.antialiasing.sampling import Sampling
@@ -22,6 +22,13 @@ if TYPE_CHECKING:
 
 MIXING = "over"
 """Blend method of lines with intensities where the settings choose none that mixes."""
+
+
+def import_methods(settings: Settings) -> None:
+    """Import all methods that settings choose: before the stages are timed, so that no stage's time contains it."""
+    for family in families():
+        if not no_effect(settings, family):
+            table.get(family, getattr(settings, family))
 
 
 class ResolvedSettings:

@@ -12,6 +12,7 @@ from core.records.clip_region import checked_polygon_region, checked_region
 from core.records.curves import Curves, checked_patches
 from core.records.deformations import Deformation
 from core.records.depth_table import DepthTable
+from core.records.motion import Motion
 from core.records.primitives import checked_rings
 from core.shaders.record import ShaderProgram
 
@@ -259,6 +260,8 @@ class Scene:
     """(4,) float64 linear colour that the frame is cleared to."""
     program: ShaderProgram | None = None
     """Its shaders, which replace matrices, light and textures; ``None``: the settings say how it is lit."""
+    motion: Motion | None = None
+    """What moves from picture to picture; this is the last one."""
     corner_count: ClassVar[int] = 3
     """How many corners a primitive has."""
 
@@ -330,6 +333,8 @@ class ClipScene:
     """(R,) int64, first corner of each ring of a polygon, rising from 0: outline, then holes. ``None``: one ring."""
     region_rings: Integers | None = None
     """(R,) int64, the same of ``clip_region``."""
+    motion: Motion | None = None
+    """What moves from picture to picture; this is the last one."""
     table: DepthTable | None = None
     """What fragments are made from (`core.depth.whole_depths.table_scene`); ``None`` of all other kinds."""
     curves: Curves | None = None

@@ -8,6 +8,8 @@ from core.families import NOT_FOR, Family, SettingField, WholeNumber, choice, fa
 from core.methods import Method, ReplacedName, table
 from core.scene import AnyScene
 
+OF_HISTORY: Any = {"taken_by": "antialiasing", "otherwise": "Only temporal antialiasing keeps a history."}
+
 
 @dataclass(frozen=True)
 class Settings:
@@ -223,6 +225,7 @@ class Settings:
         taken_by="antialiasing",
         otherwise="Only several samples per pixel are filtered.",
     )
+    history: str = choice("reprojected", "History", "resolve", "core.antialiasing.history", **OF_HISTORY)
     presentation: str = choice(
         "none", "Presentation", "resolve", "core.framebuffer.presentation", is_look=True
     )
@@ -236,6 +239,10 @@ class Settings:
         otherwise="Only pictures that are presented on a screen are flushed.",
         is_look=True,
     )
+    pictures: int = number_field(16, "Pictures", 64, (1, 2, 4, 8, 16, 32, 64), "{0}", **OF_HISTORY)
+    """How many pictures are mixed (antialiasing ``temporal``), 1 to 64."""
+    blend_share: int = number_field(10, "Blend share", 100, (1, 2, 5, 10, 20, 50, 100), "{0} %", **OF_HISTORY)
+    """Least share of a new picture (antialiasing ``temporal``) in hundredths, 1 to 100."""
     segments: int = number_field(
         6,
         "Segments",
@@ -387,8 +394,8 @@ class Settings:
 
         Notes
         -----
-        Render, trace and pixel history run it, under the name of the method that it replaces. `draw_picture` draws
-        all buffers then, since its closed forms are those of the table's functions. Other runs are not equal to it.
+        Render, trace and pixel history run it, under the name of the method that it replaces. `draw_picture` draws all
+        buffers then: its closed forms are those of the table. Other runs are not equal to it.
 
         Examples
         --------
@@ -435,13 +442,6 @@ def no_effect(settings: Settings, name: str, scene: AnyScene | None = None) -> s
 
 DEFAULTS = Settings()
 """What runs where nothing is chosen."""
-
-
-def import_methods(settings: Settings) -> None:
-    """Import all methods that settings choose: before the stages are timed, so that no stage's time contains it."""
-    for family in families():
-        if not no_effect(settings, family):
-            table.get(family, getattr(settings, family))
 
 
 def with_method(settings: Settings, family: str, name: str) -> Settings:

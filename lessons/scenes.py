@@ -21,6 +21,7 @@ from lessons.layer_scenes import crossing_glass, four_layers, intersecting
 from lessons.run_place import FIRST_STEP, RunPlace
 from lessons.shapes import FACE_COLORS, cube, knot, linear_color, sphere, teapot, torus
 from lessons.window_scenes import (
+    bar_and_wire,
     circle_of_bars,
     connecting_edges,
     moving_bar,
@@ -234,6 +235,14 @@ CATALOGUE = (
         crossing_glass,
         RunPlace("depth", "end", pixel=(30, 30)),
         {"visibility": "scan-line", "blend": "over"},
+    ),
+    BuiltInScene(
+        "bar-and-wire",
+        "Moving bar and thin wire",
+        "A bar moves 4 pixels a picture and leaves a ghost in the history; a wire thinner than a pixel stands still.",
+        bar_and_wire,
+        RunPlace("resolve", "end", pixel=(38, 10)),
+        {"antialiasing": "temporal", "pictures": "32", "history": "kept"},
     ),
     BuiltInScene(
         "circle-of-bars",

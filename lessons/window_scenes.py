@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from core.depth.whole_depths import table_scene
 from core.records.arrays import Floats, checked
 from core.records.depth_table import DepthTable, depths_of_text
+from core.records.motion import Motion
 from core.scene import ClipScene
 from lessons.shapes import FACE_COLORS, linear_color
 
@@ -63,6 +64,17 @@ BARS = (
     ((47.0, 54.0, 29.0), (3.75, 7.75, 43.25)),
 )
 """X and y of three bars, wide and near at their first two corners, pointed and far at the third."""
+
+
+def bar_and_wire() -> ClipScene:
+    """A bar that moves 4 pixels a picture, and a wire of a third of a pixel that stands still."""
+    size = (64, 20)
+    flat, ones = [0.5] * 3, [1, 1, 1]
+    shapes = ([44, 56, 56], [0, 0, 16]), ([44, 56, 44], [0, 16, 16]), ([3, 61, 61], [17, 19.5, 19.8])
+    way = (8 / 64, 0.0, 0.0)
+    clip = np.stack([window_triangle(x, y, flat, ones, size) for x, y in shapes])
+    motion = Motion(objects=((0, way), (1, way)))
+    return ClipScene(clip, np.ones((3, 3, 4)), size, background=np.array([0.0, 0.0, 0.0, 1.0]), motion=motion)
 
 
 def circle_of_bars() -> ClipScene:

@@ -136,6 +136,20 @@ class ProgramRecord(Record):
     title: str = ""
 
 
+class MovingRecord(Record):
+    """An object of a `MotionRecord`: the number of a mesh or triangle, and its way from picture to picture."""
+
+    number: Count
+    way: Numbers3
+
+
+class MotionRecord(Record):
+    """A ``core.records.motion.Motion``."""
+
+    camera: Numbers3 = (0.0, 0.0, 0.0)
+    objects: list[MovingRecord] = []
+
+
 class MeshSceneRecord(Record):
     """A ``core.scene.Scene``."""
 
@@ -147,6 +161,7 @@ class MeshSceneRecord(Record):
     size: Size
     background: Numbers4
     program: ProgramRecord | None = None
+    motion: MotionRecord | None = None
 
 
 class ClipSceneRecord(Record):
@@ -167,6 +182,7 @@ class ClipSceneRecord(Record):
     texture_name: str = "texture"
     size: Size
     background: Numbers4
+    motion: MotionRecord | None = None
 
 
 class TableSceneRecord(Record):

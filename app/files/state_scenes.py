@@ -58,6 +58,7 @@ from app.files.state_models import (
     SourceRecord,
     TableSceneRecord,
 )
+from app.files.state_motion import motion_of, motion_record
 from core.depth.whole_depths import table_scene
 from core.records.depth_table import DepthTable, depths_of_text, text_of_depths
 from core.scene import (
@@ -182,6 +183,7 @@ def scene_record(
         size=scene.size,
         background=_numbers(scene.background),
         program=None if scene.program is None else _program_record(scene.program),
+        motion=motion_record(scene.motion),
     )
 
 
@@ -270,6 +272,7 @@ def _clip_record(scene: ClipScene) -> ClipSceneRecord:
         texture_name=shown_name(scene.texture.name) if scene.texture is not None else "texture",
         size=scene.size,
         background=_numbers(scene.background),
+        motion=motion_record(scene.motion),
     )
 
 
@@ -317,7 +320,8 @@ def scene_from_record(
     with in_field("scene.program"):
         program = None if record.program is None else _program(record.program)
     with in_field("scene"):
-        scene = Scene(meshes, camera, lights, record.size, np.array(record.background), program)
+        background, motion = np.array(record.background), motion_of(record.motion)
+        scene = Scene(meshes, camera, lights, record.size, background, program, motion)
     return scene, path, warnings
 
 
@@ -335,15 +339,9 @@ def _clip_scene(record: ClipSceneRecord) -> ClipScene:
     with in_field("scene"):
         pixels = arrays.pop("texture")
         texture = None if pixels is None else Texture(pixels, record.texture_name)
-        background = np.array(record.background)
-        return ClipScene(
-            kind=record.primitives,
-            size=record.size,
-            texture=texture,
-            background=background,
-            curves=curves_of(arrays),
-            **arrays,
-        )
+        kept: Any = {"background": np.array(record.background), "motion": motion_of(record.motion)}
+        kept["curves"] = curves_of(arrays)
+        return ClipScene(kind=record.primitives, size=record.size, texture=texture, **kept, **arrays)
 
 
 def _table_scene(record: TableSceneRecord) -> ClipScene:

@@ -104,6 +104,7 @@ SHOWN_BY = {
     "polygon_clipping": "weiler-atherton",
     "polygon_fill": "pentagram",
     **dict.fromkeys(("presentation", "flush"), "two-buffers"),
+    "history": "bar-and-wire",
 }
 """Families to the scene in which their methods do something; ``single-triangle`` for the others."""
 TOGETHER = {
@@ -112,6 +113,7 @@ TOGETHER = {
     "provoking": {"interpolation": "flat"},
     "resolve_filter": {"antialiasing": "ssaa-4"},
     "flush": {"presentation": "double"},
+    "history": {"antialiasing": "temporal"},
 }
 """Other settings with which the methods of a family do something."""
 NO_LISTING = "It has no listing."

@@ -11,6 +11,7 @@ from app.session.memory import check_free
 from core import Settings, Trace, trace
 from core.coverage.pixel_runs import fill_traits
 from core.records.arrays import Floats, cached_property
+from core.resolved import resolve
 from core.scene import AnyScene, ClipScene
 from core.stages.before_matrices import before_matrices
 from core.trace import TraceSource, scene_triangle_count
@@ -155,10 +156,15 @@ class Document:
             tree += 0.0 if boxes is None else boxes.seconds
         return (
             tree
-            + drawn / TRIANGLES_PER_SECOND
+            + drawn * self._picture_count / TRIANGLES_PER_SECOND
             + self.most_tests / tests_per_second
             + statements / STATEMENTS_PER_SECOND
         )
+
+    @property
+    def _picture_count(self) -> int:
+        """How many pictures are drawn."""
+        return self.settings.pictures if resolve(self.settings).sampling.is_temporal else 1
 
     def check_length(self) -> None:
         """Refuse a run that has too many steps to be kept; ValueError with what to do about it."""

@@ -47,11 +47,15 @@ class Sampling:
     """Whether pixels are cut into the pieces that edges make of them."""
     is_filtered: bool = False
     """Whether edges are smoothed when the picture is finished."""
+    is_temporal: bool = False
+    """Whether the picture is mixed with those before it."""
 
     @property
     def is_plain(self) -> bool:
         """Whether a pixel has one sample, and its colour is that of the sample."""
-        return len(self.position) == 1 and not (self.side or self.is_area or self.is_filtered)
+        return len(self.position) == 1 and not (
+            self.side or self.is_area or self.is_filtered or self.is_temporal
+        )
 
     @property
     def count(self) -> int:
@@ -168,3 +172,17 @@ def multisample(samples_across: int) -> Sampling:
 def fast_approximate(samples_across: int) -> Sampling:
     """Take one sample, and smooth the edges of the finished picture (`core.antialiasing.fxaa`)."""
     return Sampling(CENTER, is_filtered=True)
+
+
+@method(
+    "antialiasing",
+    "temporal",
+    "Temporal (mixed with the pictures before)",
+    source="Karis 2014, High quality temporal supersampling; LMU, the antialiasing of many video games (TXAA, 2012)",
+    exact_for="scenes at rest: supersampling by one sample a picture, shading included",
+    breaks_where="what moves: ghosts, or thin details that flicker where clamped. Lines and points: their pixels stay",
+    takes=("history", "pictures", "blend_share"),
+)
+def temporal(samples_across: int) -> Sampling:
+    """Take one sample in each picture, and mix it with those before (`core.antialiasing.temporal`)."""
+    return Sampling(CENTER, is_temporal=True)

@@ -11,6 +11,7 @@ from core.antialiasing.fxaa import around_edges
 from core.antialiasing.resolve import AROUND, filter_weights, grown, inner_of, reach_of, weighted_mean
 from core.antialiasing.traced_areas import PixelCuts, cuts_of, with_cuts
 from core.antialiasing.traced_fxaa import trace_filter
+from core.antialiasing.traced_temporal import trace_temporal
 from core.framebuffer.display import SRGB_LIMIT, encode_linear, encode_srgb, srgb, srgb_byte
 from core.framebuffer.traced import trace_blend
 from core.framebuffer.traced_presentation import with_presentation
@@ -78,6 +79,8 @@ def _trace_pixels(source: TraceSource) -> StageTrace:
         plain = replace(source.settings, antialiasing=Settings.antialiasing)
         color = draw(source.scene, plain, wide, last_drawn(source)).color
         return trace_filter(source, color, inner_of(wide, source.raster), ENCODE)
+    if resolve(source.settings).sampling.is_temporal:
+        return trace_temporal(source, last_drawn(source), ENCODE)
     if resolve(source.settings).sampling.is_plain:
         blend = trace_blend(source)
         linear = blend.buffers[0].at(blend.steps.row_count).reshape(-1, 4)

@@ -202,6 +202,7 @@ NOT_EDITABLE = {
     "visibility": "It orders triangles, or casts rays, for the whole picture at once.",
     "antialiasing": _FIXED,
     "resolve_filter": "Its listing takes all samples of a pixel.",
+    "history": "Its listing mixes one channel, and all pictures depend on the one before.",
     "presentation": "Its listing gives the time of a swap, and all pictures depend on the one before.",
     "flush": "Its listing copies memory, and computes no numbers of a pixel.",
 }

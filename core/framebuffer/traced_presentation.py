@@ -69,7 +69,7 @@ def with_presentation(found: StageTrace, source: TraceSource) -> StageTrace:
     buffering: Buffering = resolve(settings).method("presentation").function()
     if not buffering.buffer_count or source.scene.corner_count == 0:
         return found
-    display = found.buffers[0]
+    display = next(track for track in found.buffers if track.name == "display")
     height, width = display.initial.shape[:2]
     flush = resolve(settings).method("flush").function()
     happens, times = events(buffering, flush, height, settings.drawing_time, settings.refresh_time)
@@ -166,7 +166,7 @@ def _tracks(
     is_whole : bool
         Whether an event writes a whole picture, not one row.
     """
-    display = joined.buffers[0]
+    display = next(track for track in joined.buffers if track.name == "display")
     height, width = display.initial.shape[:2]
     buffers = buffering.buffer_count
     whole = np.arange(height * width)

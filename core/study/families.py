@@ -5,6 +5,7 @@ by itself; a better one is added here.
 """
 
 from core.antialiasing.measured import ANTIALIASING, SHADING, TEXTURE_FILTER
+from core.antialiasing.measured_temporal import TEMPORAL
 from core.coverage.measured import COVERAGE, FILL, ORIENTATION, POLYGON_CLIPPING, POLYGON_FILL
 from core.deformation.measured import SKINNING
 from core.depth.measured import DEPTH_STEPS
@@ -39,6 +40,7 @@ OWN = (
     DEPTH,
     DEPTH_STEPS,
     ANTIALIASING,
+    TEMPORAL,
     SHADING,
     SHADOW,
     VISIBILITY,

@@ -1,6 +1,6 @@
 """What the stage traces are made from: the pipeline run on the traced triangles, and how long a trace may be."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -104,7 +104,10 @@ class TraceSource:
             is_own = number == self.triangle
             # A patch without fragments is drawn after those before it.
             first = int(is_own.argmax()) if is_own.any() else int((number < self.triangle).sum())
-        return draw(self.scene, self.settings, self.raster, Before(first))
+        # Pictures before this one are mixed in at the end, and are no part of the buffers.
+        is_mixed = resolve(self.settings).sampling.is_temporal
+        settings = replace(self.settings, antialiasing="none") if is_mixed else self.settings
+        return draw(self.scene, settings, self.raster, Before(first))
 
     @property
     def fill(self) -> str:

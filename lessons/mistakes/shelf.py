@@ -10,6 +10,7 @@ from lessons.mistakes import (
     curves,
     depths,
     fragments,
+    history,
     planes,
     presenting,
     scan_conversion,
@@ -57,6 +58,7 @@ RULES: dict[str, WrongRule] = {
         boxes,
         smoothing,
         visible_work,
+        history,
         presenting,
     )
     for rule in module.RULES

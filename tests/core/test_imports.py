@@ -117,7 +117,8 @@ def test_a_new_file_in_the_folder_of_a_family_is_found_after_the_first_ones() ->
 
 
 def test_chosen_methods_are_imported_before_stages_are_timed() -> None:
-    code = "import sys; import core.pipeline; from core.settings import Settings, import_methods; "
+    code = "import sys; import core.pipeline; from core.settings import Settings; "
+    code += "from core.resolved import import_methods; "
     code += "old = set(sys.modules); import_methods(Settings(visibility='painters', shading='gouraud')); "
     imported = run_fresh(code + "print(*set(sys.modules) - old, sep='\\n')")
     assert {"core.shading.shading", "core.visibility.painters", "core.coverage.edge_formats"} <= set(imported)

@@ -12,6 +12,7 @@ from lessons.mistakes import (
     curves,
     depths,
     fragments,
+    history,
     planes,
     presenting,
     scan_conversion,
@@ -60,7 +61,7 @@ def test_names_are_unique_and_unknown_ones_refused() -> None:
         shadows,
         smoothing,
     }
-    formulas |= {surfaces, textures, transforms, visible_work, presenting}
+    formulas |= {surfaces, textures, transforms, visible_work, presenting, history}
     count = sum(len(module.TWINS) for module in runs) + sum(len(module.RULES) for module in formulas)
     both = SHELF.keys() & RULES.keys()
     assert both == {"front-and-back-swapped", "octant-of-centre", "sorted-after-division"}

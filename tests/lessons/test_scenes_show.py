@@ -104,6 +104,7 @@ CLAIMS = {
         s.run.source.picture.color
         != render(s.run.source.scene, replace(s.run.source.settings, visibility="painters")).color
     ),
+    "bar-and-wire": lambda s: s.run.source.picture.color[10, 38, 0] > 0.1 and not s.pixels().count((38, 10)),
     "circle-of-bars": lambda s: (
         unlike(s, visibility="ray-casting") == 8 and len(s.run.stage("depth").extra["sorted"].pairs) == 3
     ),

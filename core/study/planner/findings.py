@@ -162,6 +162,8 @@ class Seen:
     """Largest angle, in degrees, of a normal from the middle of its triangle's; ``None``: nothing is lit."""
     highlight: float | None
     """Degrees within which the narrowest highlight falls to half its light; ``None``: there is none."""
+    is_moving: bool
+    """Whether something moves between pictures."""
     is_translucent: bool
     """Whether some alpha is below 1."""
     closed: str
@@ -202,6 +204,7 @@ def look(scene: AnyScene, everything: Settings, regions: tuple[tuple[int, int, i
         texels=_longest_step(geometry, scene),
         lean=_lean(geometry),
         highlight=_highlight(scene) if "normal" in primitives.layout else None,
+        is_moving=scene.motion is not None and not scene.motion.is_rest,
         is_translucent=_is_translucent(geometry, scene),
         closed=_closed(scene),
         corner_count=scene.corner_count,

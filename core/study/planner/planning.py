@@ -117,6 +117,10 @@ def _fact(choice: Choice, seen: Seen, is_compared: bool) -> str:
             return "Some alpha is below 1: what is behind shines through."
         case "blend":
             return "Every alpha is 1: nothing shines through."
+        case "antialiasing" if seen.is_moving:
+            return "Something moves between pictures: mixed over time, it leaves ghosts, or thin details flicker."
+        case "antialiasing":
+            return "Nothing moves between pictures: mixed over time by 1/k, each picture is one sample more."
     return ""
 
 

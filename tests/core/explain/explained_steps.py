@@ -13,6 +13,7 @@ from core import STAGES, ClipScene, Settings, Trace, render, trace
 from core.explain import account, formula, variables
 from core.explain.records import Formula, Variable
 from core.methods import table
+from core.records.motion import Motion
 from core.scene import AnyScene
 from core.settings import families
 from core.stages.needs import refusal
@@ -202,6 +203,10 @@ def traces() -> dict[str, dict[str, Trace]]:
     corners = np.array([[[-0.8, -0.7, 0, 1], [0.9, -0.4, 0, 1], [0.1, 0.8, 0, 1]]])
     alone = ClipScene(corners, np.eye(3)[None], (16, 12))
     rare["smoothed"] = trace(alone, Settings(antialiasing="fxaa"))
+    turned = replace(make_scene("textured-floor"), size=(8, 6), motion=Motion(camera=(0.4, 0.0, 0.0)))
+    for history in ("kept", "reprojected", "clamped"):
+        mixed = Settings(antialiasing="temporal", pictures=3, blend_share=40, history=history)
+        rare[f"mixed, {history}"] = trace(turned, mixed, region=(0, 0, 8, 6))
     layered = Settings(visibility="scan-line", blend="over")
     rare["layers"] = trace(make_scene("crossing-glass"), layered, region=(26, 28, 8, 3))
     rare["layers and a tie"] = trace(ClipScene(np.tile(corners, (2, 1, 1)), size=(16, 12)), layered)

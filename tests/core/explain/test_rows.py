@@ -127,6 +127,7 @@ UNMARKED = {
     *("clip.untouched.keep", "bin.whole-image.keep"),
     *("shade.lit.albedo", "shade.lit.interpolated", "shade.textured-lit.interpolated"),
     *("depth.cell.depth", "depth.store.depth"),
+    *("resolve.mixed.history", "resolve.limited.history"),
     *(f"blend.{kind}.source" for kind in ("over", "additive", "line-over", "line-additive")),
 }
 """Operations that no line of a listing does: what they do is to copy, or to take what is known already."""

@@ -84,6 +84,7 @@ def textured_clip_scene() -> ClipScene:
 
 
 LEFT_OUT = (
+    "bar-and-wire",
     "crossing-glass",
     "twisted-tube",
     "blended-bar",

@@ -57,9 +57,10 @@ AGAINST: Mapping[str, Mapping[str, tuple[str, ...]]] = {
         "ray-casting-by-pixel": ("z-buffer",),
     },
     "depth_test_time": {"early": ("late",)},
+    "history": {"kept": ("clamped",), "reprojected": ("kept",), "clamped": ("reprojected",)},
 }
 """Family and method to what it is compared with in the lectures, though both may end with the same picture."""
-SHOWN_IN = {"visibility": ("depth",), "depth_test_time": ("shade", "depth")}
+SHOWN_IN = {"visibility": ("depth",), "depth_test_time": ("shade", "depth"), "history": ("resolve",)}
 """The stages whose steps show what such methods do otherwise."""
 
 
@@ -74,7 +75,9 @@ def counterparts(settings: Settings, stage: str) -> Iterator[tuple[str, str]]:
 def right_ones(settings: Settings, stage: str) -> Iterator[tuple[str, str]]:
     """Yield the right methods where ones as printed are chosen at a stage, and other lines against a line."""
     chosen = {
-        name: of for name, of in Settings().differences(settings).items() if FAMILIES[name].stage == stage
+        name: of
+        for name, of in Settings().differences(settings).items()
+        if name in FAMILIES and FAMILIES[name].stage == stage
     }
     for family, method in chosen.items():
         if isinstance(method, str) and method.endswith(AS_PRINTED):

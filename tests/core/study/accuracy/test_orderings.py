@@ -296,6 +296,20 @@ def test_cull() -> None:
     assert run("cull", "open", rings=6)["back"].errors["wrong-visible"] > 0
 
 
+def test_temporal() -> None:
+    # At rest a picture is one sample more. Moved a pixel a picture, what is kept where it was is wrong by the ghost;
+    # clamped, it is much less wrong.
+    at_rest = {count: run("temporal", "at-rest", pictures=count) for count in (1, 4, 16)}
+    error = {
+        name: [at_rest[count][name].errors["mean-color"] for count in (1, 4, 16)]
+        for name in ("kept", "reprojected", "clamped")
+    }
+    assert error["kept"] == error["reprojected"]
+    assert error["kept"][0] > 1.5 * error["kept"][1] > 2 * error["kept"][2]
+    moving = run("temporal", "moving", pictures=16)
+    assert moving["kept"].errors["mean-color"] > 1.4 * moving["clamped"].errors["mean-color"]
+
+
 def test_hierarchy() -> None:
     # A mesh as one object: every ray asks its box, and all that meet it ask 120 triangles. A BVH of n leaves with one
     # triangle each has 2 n - 1 nodes, and lists each once. An octree lists one in every cell that it touches.

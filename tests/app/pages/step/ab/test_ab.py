@@ -104,6 +104,7 @@ def test_b_stands_against_the_method_that_a_scene_of_lines_is_about(
     [
         ("four-layers", "shade", {}, {"depth_test_time": "late"}),
         ("circle-of-bars", "depth", {}, {"visibility": "bsp"}),
+        ("bar-and-wire", "resolve", {}, {"history": "clamped"}),
         ("intersecting", "depth", {"visibility": "scan-line"}, {"visibility": "z-buffer"}),
     ],
 )
