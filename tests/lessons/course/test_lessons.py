@@ -80,6 +80,17 @@ def test_the_next_lesson_is_the_named_one_or_the_next_in_the_list() -> None:
         assert course.after(lesson) is (course.lessons[named.lesson] if named else following)
 
 
+def test_a_lesson_recalls_an_earlier_one() -> None:
+    course = shipped()
+    order = list(course.lessons)
+    for place, lesson in enumerate(course.lessons.values()):
+        about = course.recalled(lesson)
+        if lesson.part.recall is None:
+            continue
+        assert about is not None, f"{lesson.name}: no lesson closes with {lesson.part.recall}"
+        assert order.index(about.name) < place, f"{lesson.name} recalls {about.name}, which comes later"
+
+
 def test_explorations_are_steps_that_surprise() -> None:
     assert len(explorations()) == 8
     for each in explorations():
