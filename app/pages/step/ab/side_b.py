@@ -56,11 +56,24 @@ AGAINST: Mapping[str, Mapping[str, tuple[str, ...]]] = {
         "ray-casting-tree": ("ray-casting-by-pixel",),
         "ray-casting-by-pixel": ("z-buffer",),
     },
-    "depth_test_time": {"early": ("late",)},
+    "depth_test_time": {"early": ("late",), "prepass": ("early",)},
+    "shadow": {"map": ("rays",), "map-average": ("map",), "rays": ("map",)},
+    "presentation": {
+        "single": ("double",),
+        "double": ("triple",),
+        "double-at-once": ("double",),
+        "triple": ("double",),
+    },
     "history": {"kept": ("clamped",), "reprojected": ("kept",), "clamped": ("reprojected",)},
 }
 """Family and method to what it is compared with in the lectures, though both may end with the same picture."""
-SHOWN_IN = {"visibility": ("depth",), "depth_test_time": ("shade", "depth"), "history": ("resolve",)}
+SHOWN_IN = {
+    "visibility": ("depth",),
+    "depth_test_time": ("shade", "depth"),
+    "shadow": ("shade",),
+    "presentation": ("resolve",),
+    "history": ("resolve",),
+}
 """The stages whose steps show what such methods do otherwise."""
 
 

@@ -103,6 +103,9 @@ def test_b_stands_against_the_method_that_a_scene_of_lines_is_about(
     ("name", "stage", "chosen", "expected"),
     [
         ("four-layers", "shade", {}, {"depth_test_time": "late"}),
+        ("four-layers", "shade", {"depth_test_time": "prepass"}, {"depth_test_time": "early"}),
+        ("box-in-light", "shade", {}, {"shadow": "rays"}),
+        ("two-buffers", "resolve", {}, {"presentation": "double"}),
         ("circle-of-bars", "depth", {}, {"visibility": "bsp"}),
         ("bar-and-wire", "resolve", {}, {"history": "clamped"}),
         ("intersecting", "depth", {"visibility": "scan-line"}, {"visibility": "z-buffer"}),
