@@ -38,7 +38,7 @@ def _not_left(step: StepValues, stored: float, left: float) -> Said:
     if stored == left:
         return f"{text} has left an equal depth, of a fragment that comes first."
     new, old = pair_text(stored, left)
-    test = named(below("d", "new"), stored).compared("=", named(below("d", "left"), left))
+    test = named(below("d", "new"), stored).compared("=", named(below("d", "buffer"), left))
     return f"{text} has left the depth {old}, not its {new}.", formula_of(
         concludes("shaded", "not shaded", test)
     )

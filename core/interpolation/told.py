@@ -51,7 +51,7 @@ def second_weight(step: StepValues) -> Asked | None:
 def weight(step: StepValues) -> Said:
     """The weights of the ends."""
     s, is_affine = step.named("s", "s"), step.kind == "line-affine"
-    how = "its place along the line in the window" if is_affine else "the second part over 1/w"
+    how = "its place along the line in the window" if is_affine else "its part divided by 1/w"
     text = f"{step.fragment_name}: the second end has weight {s}, {how}, and the first end {spoken(1 - s.value)}."
     if is_affine:
         before = step.named("t_before", r"s_{\mathrm{before}}")

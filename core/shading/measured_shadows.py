@@ -139,7 +139,7 @@ SHADOW = StudyFamily(
             "Box on a floor",
             "frame",
             (
-                Axis("bias", "Shadow bias", "1/16 texel", BIASES, default=11, is_cost=True),
+                Axis("bias", "Shadow bias", "sixteenths of a texel", BIASES, default=11, is_cost=True),
                 Axis("map", "Shadow map", "texels on a side", MAP_SIZES, True, default=16),
             ),
         ),

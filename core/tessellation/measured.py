@@ -102,7 +102,7 @@ _SEGMENTS = Axis(
 _TOLERANCE = Axis(
     "tolerance",
     "Tolerance",
-    "1/16 px",
+    "sixteenths of a pixel",
     (1, 2, 4, 8, 16, 32, 64, 128),
     is_logarithmic=True,
     default=8,

@@ -79,7 +79,12 @@ DICING = StudyFamily(
             "frame",
             (
                 Axis(
-                    "side", "Side of a micropolygon", "1/16 px", (16, 32, 64, 128), default=64, is_cost=True
+                    "side",
+                    "Side of a micropolygon",
+                    "sixteenths of a pixel",
+                    (16, 32, 64, 128),
+                    default=64,
+                    is_cost=True,
                 ),
                 Axis("layers", "Balls", "", (1, 2, 4), default=1),
             ),
