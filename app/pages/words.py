@@ -41,12 +41,16 @@ def digits(number: float, count: int = 3) -> str:
     return f"{number:.{count - 1}e}"
 
 
+def with_unit(number: str, unit: str) -> str:
+    """Return a number with its unit; one such as 1/255 is a fraction: 0.5/255."""
+    return f"{number}{unit[1:]}" if unit.startswith("1/") else f"{number} {unit}".rstrip()
+
+
 def work_sentence(study: Study) -> str:
     """Return what was done, with the values of all dials."""
     parts = [f"{study.work.title}{f' ({study.scene})' if study.scene else ''}"]
     for dial in study.work.dials:
-        unit = f" {dial.unit}" if dial.unit else ""
-        parts.append(f"{dial.title.lower()} {study.dials[dial.name]:g}{unit}")
+        parts.append(f"{dial.title.lower()} {with_unit(f'{study.dials[dial.name]:g}', dial.unit)}")
     return "; ".join(parts)
 
 
@@ -60,7 +64,9 @@ def best_sentences(study: Study) -> list[str]:
     for best in found:
         others = joined([f"{value:g}" for value in sorted(best.others)])
         rest = f"; the difference at {others} is within the noise" if others else ""
-        lines.append(f"{best.title}: fastest at {dial.title.lower()} {best.value:g} {dial.unit}{rest}.")
+        lines.append(
+            f"{best.title}: fastest at {dial.title.lower()} {with_unit(f'{best.value:g}', dial.unit)}{rest}."
+        )
     return [*lines, "This depends on the machine, and on the size of the triangles."]
 
 

@@ -143,7 +143,7 @@ COLLAPSE = _experiment(
     "collapsing-joint",
     "A tube bent at a joint",
     BEND,
-    "A tube is bent in the middle, where half of every weight is that of each bone. Does it stay as wide as it was?",
+    "A tube is bent in the middle, where both bones have the weight 1/2. Does it stay as wide as it was?",
     "Linear blending keeps |cos(t/2)| of the width: too little from 30 degrees on, whatever the length. Dual "
     "quaternions keep all of it.",
 )

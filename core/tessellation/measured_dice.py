@@ -16,7 +16,7 @@ from core.study.frame_task import FrameTask, color_pictures
 from core.study.record import Axis, ErrorMeasure, Judgement, Pictures, WorkKind, judged
 from core.tessellation.ball import RADIUS, SIDE, balls
 
-OUTLINE = ErrorMeasure("outline", "Pixels inside or outside of the wrong side of the outline", "pixels")
+OUTLINE = ErrorMeasure("outline", "Pixels on the wrong side of the outline", "pixels")
 
 
 def disc() -> Flags:

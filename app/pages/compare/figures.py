@@ -15,6 +15,7 @@ from app.pages.words import (
     place_text,
     settings_sentence,
     time_text,
+    with_unit,
     work_sentence,
 )
 from core.methods import table
@@ -151,13 +152,7 @@ def error_text(value: float, measure: ErrorMeasure) -> str:
     """Return an error with its unit."""
     if isnan(value):
         return "not defined"
-    number = "∞" if isinf(value) else digits(value, 4)
-    # A unit such as 1/255 is a fraction: 0.5/255.
-    return (
-        f"{number}{measure.unit[1:]}"
-        if measure.unit.startswith("1/")
-        else f"{number} {measure.unit}".rstrip()
-    )
+    return with_unit("∞" if isinf(value) else digits(value, 4), measure.unit)
 
 
 def point_text(study: Study, point: Point) -> str:

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from app.pages.compare.charts import growth_of, numbers_of
-from app.pages.words import best_sentences
+from app.pages.words import best_sentences, with_unit
 from core.study import Point, Study, best_values, study_family
 from tests.core.study.accuracy.untimed_runs import run
 from widgets.experiments.series import ChartPicture
@@ -37,6 +37,10 @@ def test_the_best_size_is_the_fastest_and_equals_are_named() -> None:
         "Blocks: fastest at block size 8 pixels; the difference at 16 is within the noise.",
         "This depends on the machine, and on the size of the triangles.",
     ]
+
+
+def test_a_unit_that_is_a_fraction_takes_the_number_above_it() -> None:
+    assert [with_unit("8", unit) for unit in ("", "pixels", "1/16 px")] == ["8", "8 pixels", "8/16 px"]
 
 
 def test_the_chart_marks_it() -> None:

@@ -11,7 +11,7 @@ from pytestqt.qtbot import QtBot
 
 from app.files.open_any import open_any
 from app.pages.step.ab.pictures import compare
-from app.pages.step.ab.side_b import first_difference, settings_difference
+from app.pages.step.ab.side_b import first_difference, right_ones, settings_difference
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import STAGES, Settings
@@ -34,6 +34,13 @@ def row_of_b(window: MainWindow) -> int:
 def test_the_difference_in_words() -> None:
     assert settings_difference(Settings(), Settings(block_size=4)) == "block size: 4"
     assert settings_difference(Settings(), Settings()) == ""
+
+
+def test_numbers_among_the_settings_are_no_methods_to_compare_with() -> None:
+    settings = Settings(curve_tolerance=64, segments=3, block_size=4, line="bresenham-lecture")
+    found = {stage: list(right_ones(settings, stage)) for stage in STAGES}
+    assert ("line", "bresenham") in found.pop("raster")
+    assert not any(found.values())
 
 
 def test_a_pixel_found_outside_differs_from_none_not_reached() -> None:
