@@ -2,9 +2,6 @@
 
 A command is a module with ``add_arguments(parser)`` and ``run(options) -> int``; it is imported when it is
 called, so that no command waits for what another one needs.
-
-A command is a module with ``add_arguments(parser)`` and ``run(options) -> int``; it is imported when it is
-called, so that no command waits for what another one needs.
 """
 
 import argparse
@@ -13,6 +10,7 @@ import io
 import os
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -20,7 +18,6 @@ from typing import Any, NoReturn
 
 from app import __version__
 from app.usage import PROGRAM, UsageError
-from core.numeric.watched import watched
 from lessons.os_errors import problem_text
 
 # The window, opened from the command line.
@@ -206,9 +203,17 @@ def _run_command(command: Command, arguments: Sequence[str]) -> int:
     options = _parse(parser, arguments)
     if options is None:
         return 0
-    with watched(show_work):
+    with _watched():
         code: int = module.run(options)
     return code
+
+
+def _watched() -> AbstractContextManager[None]:
+    """Say what takes long, where the command has loaded NumPy: bench sets the number of threads before."""
+    if "numpy" not in sys.modules:
+        return nullcontext()
+    watched: Callable[..., AbstractContextManager[None]] = import_module("core.numeric.watched").watched
+    return watched(show_work)
 
 
 def show_work(fraction: float | None, doing: str) -> None:

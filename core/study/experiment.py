@@ -2,7 +2,8 @@
 
 Corners that lie in the same place stay together, so that shared edges stay shared.
 
-What is right is worked out anew for whatever is left of a scene, so every failing cell can be made smaller.
+Where it is known what is right for any scene of the kind, that is worked out anew for whatever is left of a scene, so
+every failing cell can be made smaller.
 """
 
 from collections.abc import Callable, Iterator
@@ -332,6 +333,11 @@ class Experiment(ExperimentInfo):
 
     def __eq__(self, other: object) -> bool:
         return self is other
+
+    @property
+    def can_shrink(self) -> bool:
+        """Whether it is known what is right for any scene of the kind, so that a failing cell can be made smaller."""
+        return self.case_of is not Case
 
     @property
     def info(self) -> ExperimentInfo:

@@ -1,4 +1,4 @@
-"""No kind of failing cell is left out: of every experiment, for every method that fails in it, a cell shrinks."""
+"""No kind of failing cell is left out: of every experiment that shrinks, for every method that fails, a cell does."""
 
 import numpy as np
 import pytest
@@ -20,7 +20,9 @@ def triangle_count(scene: AnyScene) -> int:
 
 
 def test_every_experiment_has_a_failing_cell_that_shrinks() -> None:
-    assert list(dict.fromkeys(name for name, _, _ in FAILING_CELLS)) == list(experiments.names)
+    assert list(dict.fromkeys(name for name, _, _ in FAILING_CELLS)) == [
+        name for name in experiments.names if experiments.get(name).can_shrink
+    ]
 
 
 @pytest.mark.parametrize(

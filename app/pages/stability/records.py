@@ -194,7 +194,7 @@ def case_record(found: CaseFound) -> CaseRecord:
         pixel=None if opening is None or found.frame is None else opening.pixel,
         has_formats=opening is not None and has_formats(opening),
         can_step=opening is not None,
-        can_shrink=shrunk is None and is_failure(found.verdict),
+        can_shrink=shrunk is None and is_failure(found.verdict) and found.order.experiment.can_shrink,
         can_save=shrunk is not None,
     )
 
