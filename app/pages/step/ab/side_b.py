@@ -27,7 +27,7 @@ SAME = "the same settings"
 NAMED = 3
 """Settings in a title at most."""
 FIRST_CHOICES = {
-    "transform": (("depth", "reversed-z"),),
+    "transform": (("skinning", "dual-quaternion"), ("tessellation", "bound"), ("depth", "reversed-z")),
     "edges": (("coverage", "float32"),),
     "bin": (("fill", "hierarchy"), ("fill", "blocks")),
     "raster": (("line", "midpoint"), ("fill", "scanline"), ("fill_rule", "inclusive")),
@@ -43,7 +43,7 @@ ANYWHERE = (("interpolation", "affine"), ("depth", "z-16"), ("fill", "scanline")
 """What is tried where no method of the stage makes a difference."""
 
 
-LINES = ("line_clipping", "line")
+ABOUT = ("line_clipping", "line", "tessellation", "skinning")
 """Families of which a scene that chooses a method itself is about that method."""
 AS_PRINTED = "-lecture"
 """What the names of methods as printed end in, behind the name of the right one."""
@@ -86,7 +86,7 @@ def counterparts(settings: Settings, stage: str) -> Iterator[tuple[str, str]]:
 
 
 def right_ones(settings: Settings, stage: str) -> Iterator[tuple[str, str]]:
-    """Yield the right methods where ones as printed are chosen at a stage, and other lines against a line."""
+    """Yield the right methods where ones as printed are chosen at a stage, and others where a scene is about one."""
     chosen = {
         name: of
         for name, of in Settings().differences(settings).items()
@@ -95,7 +95,7 @@ def right_ones(settings: Settings, stage: str) -> Iterator[tuple[str, str]]:
     for family, method in chosen.items():
         if isinstance(method, str) and method.endswith(AS_PRINTED):
             yield family, method.removesuffix(AS_PRINTED)
-    for family in filter(chosen.__contains__, LINES):
+    for family in filter(chosen.__contains__, ABOUT):
         yield from ((family, method) for method in FAMILIES[family].classical)
 
 

@@ -43,6 +43,14 @@ def test_numbers_among_the_settings_are_no_methods_to_compare_with() -> None:
     assert not any(found.values())
 
 
+@pytest.mark.parametrize(
+    ("name", "family"), [("curve", "tessellation"), ("diced-ball", "tessellation"), ("bent-bar", "skinning")]
+)
+def test_b_differs_in_what_a_scene_is_about(name: str, family: str) -> None:
+    document = open_document(make_scene(name), name)
+    assert family in first_difference(document, document.make_trace(), "transform", {})
+
+
 def test_a_pixel_found_outside_differs_from_none_not_reached() -> None:
     covered = np.array([[True, False, False]])
     a = GridBuffer("coverage", covered, "bool", known=np.array([[True, True, False]]))
