@@ -45,6 +45,8 @@ class Session(Stepping):
         self.tracing.traced.connect(self._take_traced)
         self.tracing.failed.connect(self._refuse)
         self._history = History(document, held_arrays)
+        self._left: tuple[Document, Cursor, Pixel | None] | None = None
+        """The document that was left last for another one, with the cursor and the pin that it had."""
         self._plan: PlanReport | None = None
         self._resting = QTimer(self)
         """Runs from the last move of a drag until it rests."""
@@ -79,7 +81,7 @@ class Session(Stepping):
         pin: Pixel | None = None,
         is_predicting: bool | None = None,
     ) -> None:
-        """Show another document, with its trace if that is there already, at a cursor; undo leads back.
+        """Show another document, with its trace if that is there already, at a cursor; undo leads back to this place.
 
         ``is_predicting``: whether what comes next is hidden from now on; ``None``: as before. Raises ValueError if the
         document cannot be traced; nothing changes.
@@ -88,6 +90,7 @@ class Session(Stepping):
         run, document = document, edits_beside(document)
         if trace is None or run is not document:
             trace = trace_now(document, (cursor or self.cursor).stage)
+        self._left = self.document, self.cursor, self.pin
         self._history.put(document)
         also = Change.OPENED | Change.PIN
         if is_predicting not in (None, self.is_predicting):
@@ -205,10 +208,15 @@ class Session(Stepping):
         return self._history.undo() if direction < 0 else self._history.redo()
 
     def _take_neighbour(self, direction: int, trace: Trace) -> None:
-        before = self.document
+        before, cursor, also = self.document, None, Change.RETURNED
         after = self._move_in_history(direction)
-        was_opened = (before.title, before.path) != (after.title, after.path)
-        self._document_replaced(trace, also=Change.RETURNED | (Change.OPENED if was_opened else NOTHING))
+        if (before.title, before.path) != (after.title, after.path):
+            also |= Change.OPENED | Change.PIN
+            left, self._left = self._left, (before, self.cursor, self.pin)
+            if left is not None and left[0] is after:
+                _, cursor, pin = left
+                self._moment = replace(self._moment, pin=pin)
+        self._document_replaced(trace, cursor, also)
 
     @property
     def can_undo(self) -> bool:

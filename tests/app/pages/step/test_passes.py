@@ -42,15 +42,22 @@ def test_the_map_stands_beside_shade_with_the_texel_of_the_pixel(qtbot):
 def test_a_pass_opens_with_its_texel_pinned_and_undo_leads_back(qtbot):
     session = session_of()
     before = session.document
+    session.set_stage("shade")
+    session.go_to(7)
     stage = session.trace.stage("shade")
     session.set_pin(tuple(stage.pixel[5].tolist()))
+    place = session.cursor, session.pin
     texel = stage.columns["lamp_texels"][shaded_row(session.moment)][0].tolist()
     open_pass(session)
     assert session.document.scene is passes_of(before)[0].scene
     assert (session.document.title, session.cursor.stage) == ("What light 0 sees", "depth")
     assert list(session.pin) == texel
+    of_pass = session.cursor, session.pin
     session.undo()
     assert session.document is before
+    assert (session.cursor, session.pin) == place, "undo leads back to the place that was left"
+    session.redo()
+    assert (session.cursor, session.pin) == of_pass
 
 
 def test_without_a_pass_there_is_a_sentence(qtbot):
