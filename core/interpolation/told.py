@@ -52,17 +52,20 @@ def weight(step: StepValues) -> Said:
     """The weights of the ends."""
     s, is_affine = step.named("s", "s"), step.kind == "line-affine"
     how = "its place along the line in the window" if is_affine else "its part divided by 1/w"
-    text = f"{step.fragment_name}: the second end has weight {s}, {how}, and the first end {spoken(1 - s.value)}."
+    text = f"{step.fragment_name}: the second end has weight {s}, {how}"
+    of_first = f", and the first end {spoken(1 - s.value)}."
     if is_affine:
         before = step.named("t_before", r"s_{\mathrm{before}}")
         if math.isnan(before.value):
-            return text, formula_of(s.equals(step.named("t", "t")))
+            return text + of_first, formula_of(s.equals(step.named("t", "t")))
         difference = named(r"\Delta s", s.value - before.value)
         if difference.value:
             more = "more" if difference.value > 0 else "less"
-            text = f"{text[:-1]}, {spoken(abs(difference.value))} {more} than at the pixel before."
-        return text, formula_of(s.equals(step.named("t", "t")), s.equals(before + difference))
-    return text, formula_of(s.equals(named("p_1", step.vector("parts")[1]) / step.named("total", "1/w")))
+            text += f" and {spoken(abs(difference.value))} {more} than at the pixel before"
+        return text + of_first, formula_of(s.equals(step.named("t", "t")), s.equals(before + difference))
+    return text + of_first, formula_of(
+        s.equals(named("p_1", step.vector("parts")[1]) / step.named("total", "1/w"))
+    )
 
 
 shows(
