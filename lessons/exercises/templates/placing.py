@@ -30,7 +30,9 @@ def draw_ends(draws: Draws) -> Draft:
     for name in ("ends-clamped", "crossings-rounded", "cut-once"):
         method = SHELF[name].change_settings(PARAMETERS).line_clipping
         places = clip_lines([ends], (0, 0, *SIZE), method).segments[0].tolist()
-        wrong[name] = tuple((Fraction(x), Fraction(y)) for x, y in places)
+        # One cut may leave an end outside, where no point can be placed.
+        if all(0 <= x <= SIZE[0] and 0 <= y <= SIZE[1] for x, y in places):
+            wrong[name] = tuple((Fraction(x), Fraction(y)) for x, y in places)
     x0, x1 = (factor_text(Fraction(x)) for x, _ in ends)
     asked = f"""The segment is clipped to the window. Place its two ends that are left: where it enters and
         where it leaves. They lie on the line through the given ends.
