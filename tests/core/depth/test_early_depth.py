@@ -96,7 +96,8 @@ def test_a_pixel_is_shaded_as_often_as_its_nearest_depth_falls(case) -> None:
     source = TraceSource(ClipScene(clip, size=size), EARLY)
     _, keeps, stored = source.depths
     wanted = np.zeros(size[0] * size[1], np.int64)
-    nearest = np.full(len(wanted), np.inf)
+    # What lies as far as the cleared buffer is no nearer.
+    nearest = np.ones(len(wanted))
     for place, depth in zip(source.place[keeps].tolist(), stored[keeps].tolist(), strict=True):
         if depth < nearest[place]:
             wanted[place], nearest[place] = wanted[place] + 1, depth
