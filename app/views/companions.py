@@ -245,10 +245,9 @@ class FillingTable(Companion):
         self._view.show_table(step_table(self.moment.stage_trace, self.moment.cursor.position))
 
 
-class NewDepths(Companion):
-    """The depths of the triangle at hand, beside those that the depth buffer holds."""
+class GridBeside(Companion):
+    """A grid of another buffer, below a title that says what it holds."""
 
-    name = "new-depths"
     is_alike = True
 
     def make_widget(self) -> QWidget:
@@ -260,6 +259,12 @@ class NewDepths(Companion):
         layout.addWidget(self._title)
         layout.addWidget(self.grid, 1)
         return pane
+
+
+class NewDepths(GridBeside):
+    """The depths of the triangle at hand, beside those that the depth buffer holds."""
+
+    name = "new-depths"
 
     def draw(self) -> None:
         """Show what has been compared so far of the triangle of the step."""
@@ -273,21 +278,10 @@ class NewDepths(Companion):
         self.grid.show_step(StepMark(stage.pixel[[row]] - np.array(origin)) if has_pixel else StepMark())
 
 
-class ScreenBeside(Companion):
+class ScreenBeside(GridBeside):
     """The screen, beside the buffer that is drawn into, with the row that was read last."""
 
     name = "screen"
-    is_alike = True
-
-    def make_widget(self) -> QWidget:
-        """Return the grid below its title."""
-        pane = QWidget()
-        self.grid = PixelGrid(pane)
-        self._title = text_label("", pane, role="muted")
-        layout = column_layout(pane, 4)
-        layout.addWidget(self._title)
-        layout.addWidget(self.grid, 1)
-        return pane
 
     def is_wanted(self, moment: Moment) -> bool:
         """Return whether the picture is presented."""

@@ -6,34 +6,26 @@ from PySide6.QtWidgets import QMenu, QWidget
 
 from app.session.moment import Moment
 from app.session.passes import looked_up_texels, open_pass, passes_of, shaded_row
-from app.views.companions import Companion
+from app.views.companions import GridBeside
 from core.records.passes import PlannedPass
 from core.records.words import joined
 from core.stages.passes import drawn_depth
-from widgets.basics.controls import column_layout, text_label
 from widgets.grid.layers import GridBuffer
 from widgets.grid.marks import StepMark
-from widgets.grid.pixel_grid import PixelGrid
 
 
-class PassBeside(Companion):
+class PassBeside(GridBeside):
     """The shadow map; a right click opens it."""
 
     name = "pass"
-    is_alike = True
 
     def make_widget(self) -> QWidget:
-        """Return the grid below its title."""
-        pane = QWidget()
-        self.grid = PixelGrid(pane)
+        """Return the grid below its title, with a menu."""
+        pane = super().make_widget()
         self.grid.setAccessibleName("Shadow map: the depths that the light sees")
         self.grid.pixel_menu_requested.connect(self._offer)
         self.menu = QMenu(pane)
         self.menu.addAction("Open this pass").triggered.connect(self._open)
-        self._title = text_label("", pane, role="muted")
-        layout = column_layout(pane, 4)
-        layout.addWidget(self._title)
-        layout.addWidget(self.grid, 1)
         return pane
 
     def is_wanted(self, moment: Moment) -> bool:
