@@ -7,7 +7,7 @@ import numpy as np
 
 from core.explain.formulas import call, concludes, formula_of, named, upright
 from core.explain.number_text import pair_text
-from core.explain.records import Asked, choice
+from core.explain.records import Asked, Formula, choice
 from core.explain.step_tables import NONE, FilledColumn, cell_texts, filled_table, tabulates
 from core.explain.step_values import Said, StepValues, explains
 from core.explain.steps import VariableText, given, hides, shows
@@ -229,12 +229,17 @@ def pair(step: StepValues) -> Said:
 @explains("depth.scan-halve.halve", asks=verdict, decides=True)
 def halves(step: StepValues) -> Said:
     """A segment that is halved."""
-    left, right, middle = (step.named(name, upright(name)) for name in ("left", "right", "middle"))
     text = (
         f"{_segment(step)}: different {step.nouns.many} are nearest at its ends, so another one comes to the front "
         f"in between, and it is halved at column {step.whole('middle')}."
     )
-    return text, formula_of(middle.equals(call("floor", (left + right) / 2)))
+    return text, _middle_of(step)
+
+
+def _middle_of(step: StepValues) -> Formula:
+    """Return the column at which a segment is halved."""
+    left, right, middle = (step.named(name, upright(name)) for name in ("left", "right", "middle"))
+    return formula_of(middle.equals(call("floor", (left + right) / 2)))
 
 
 def _placed(step: StepValues, name: str, centre: str) -> str:
@@ -308,12 +313,11 @@ def pair_of_layers(step: StepValues) -> Said:
 @explains("depth.layers-halve.halve", asks=same_order, decides=True)
 def halves_layers(step: StepValues) -> Said:
     """A segment that is halved as the order changes."""
-    left, right, middle = (step.named(name, upright(name)) for name in ("left", "right", "middle"))
     text = (
         f"{_segment(step)}: the orders at its ends differ, so two {step.nouns.many} change places in between, and it "
         f"is halved at column {step.whole('middle')}."
     )
-    return text, formula_of(middle.equals(call("floor", (left + right) / 2)))
+    return text, _middle_of(step)
 
 
 @explains("depth.layer-pixel.draw")
