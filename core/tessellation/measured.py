@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from core.coverage.snapping import window_position
 from core.pipeline import render
 from core.records.arrays import Floats
 from core.records.curves import Curves
@@ -42,18 +43,14 @@ def deviation(scene: ClipScene, settings: Settings, curve: int = 0) -> float:
     every = np.arange(POINTS)
     control = np.repeat(made.control[curve][None], POINTS, axis=0)
     points = levels(*shares(every, np.full(POINTS, POINTS - 1)), control)[-1][:, 0]
-    places = _in_window(points, scene.size)
-    ends = _in_window(made.scene.clip[made.owner[::2] == curve], scene.size)
+    places = window_position(points, scene.size)
+    ends = window_position(made.scene.clip[made.owner[::2] == curve], scene.size)
     nearest = np.full(POINTS, np.inf)
     for a, b in ends:
         chord, away = b - a, places - a
         along = np.clip(away @ chord / max(float(chord @ chord), 1e-300), 0, 1)
         nearest = np.minimum(nearest, np.hypot(*(away - along[:, None] * chord).T))
     return float(nearest.max())
-
-
-def _in_window(clip: Floats, size: tuple[int, int]) -> Floats:
-    return np.asarray((clip[..., :2] / clip[..., 3:] + 1) / 2 * np.array(size))
 
 
 class CurveTask(FrameTask):

@@ -8,6 +8,7 @@ import numpy as np
 
 from app.session.moment import Step
 from core import STAGES
+from core.coverage.snapping import window_position
 from core.lines.line_clipping import polygon_window, rectangle_window
 from core.records.arrays import Flags, Floats, Integers
 from core.records.clip_region import region_in_window
@@ -75,7 +76,7 @@ def _geometry_mark(
     if stage.stage == "transform":
         scheme = scheme_of(trace, stage, row)
         if scheme is not None:
-            lines, points = (_in_window(trace, places) for places in scheme)
+            lines, points = (window_position(places, trace.source.scene.size) for places in scheme)
             return lines[np.isfinite(lines).all(axis=(1, 2))], points[np.isfinite(points).all(axis=1)]
         if kind == "cut-halve":
             ends = [columns[name][row] for name in ("chord_start", "chord_end", "control_point")]
@@ -141,12 +142,6 @@ def _clipped_edge(trace: Trace, stage: StageTrace, row: int) -> tuple[Floats, Fl
     points = columns["point"][row][None]
     lines = np.stack(ends)
     return lines[np.isfinite(lines).all(axis=(1, 2))], points[np.isfinite(points).all(axis=1)]
-
-
-def _in_window(trace: Trace, clip: Floats) -> Floats:
-    """Return window positions (..., 2) of clip positions (..., 4), NaN where w <= 0."""
-    w = np.where(clip[..., 3:] > 0, clip[..., 3:], np.nan)
-    return np.asarray((clip[..., :2] / w + 1) / 2 * np.array(trace.source.scene.size))
 
 
 def _corners(trace: Trace, triangle: int) -> Floats:

@@ -8,7 +8,7 @@ from app.session.moment import Step
 from core import STAGES, Trace
 from core.coverage.number_formats import number_format
 from core.coverage.pixel_runs import INSIDE, LEAF, OUTSIDE, SPLIT
-from core.coverage.snapping import SUBPIXELS
+from core.coverage.snapping import SUBPIXELS, window_position
 from core.coverage.traced_edges import half_plane, known_edges, weights_everywhere
 from core.coverage.traced_rows import PRINTED
 from core.explain.stage_texts import depth_text
@@ -210,8 +210,7 @@ def piece_overlays(step: Step) -> list[Overlay]:
     clip = pieces.clip[(pieces.number > 0) & (pieces.clip[..., 3] > 0).all(axis=1)]
     if not len(clip):
         return []
-    size, origin = np.array(step.trace.source.scene.size), np.array(step.origin)
-    window = (clip[..., :2] / clip[..., 3:] + 1) / 2 * size - origin
+    window = window_position(clip, step.trace.source.scene.size) - np.array(step.origin)
     sides = np.stack([window, np.roll(window, -1, axis=1)], axis=2).reshape(-1, 2, 2)
     return [SegmentOverlay("tree pieces", sides, title="pieces of the tree")]
 
