@@ -27,7 +27,8 @@ from core.stages.declared import STAGES
 from core.trace import Trace, trace
 
 if TYPE_CHECKING:
-    from core.fast_path import Picture, draw_picture
+    from core.fast_path.draw import draw_picture
+    from core.fast_path.draw_context import Picture
     from core.lines.drawing import draw_lines
     from core.lines.line_clipping import ClippedLines, clip_lines
     from core.pipeline import draw_triangles, render
@@ -36,11 +37,11 @@ else:
     __getattr__ = import_on_demand(
         globals(),
         ClippedLines="core.lines.line_clipping",
-        Picture="core.fast_path",
+        Picture="core.fast_path.draw_context",
         assemble="core.transform.assembly",
         clip_lines="core.lines.line_clipping",
         draw_lines="core.lines.drawing",
-        draw_picture="core.fast_path",
+        draw_picture="core.fast_path.draw",
         draw_triangles="core.pipeline",
         render="core.pipeline",
     )

@@ -5,7 +5,7 @@ import numpy as np
 from app.bench.records import Bytes, Contender, Prepared, TypedPicture, Work, random_triangles
 from app.bench.workloads import clip_scene
 from core import Frame, Settings, render
-from core.edits import Edit, apply_edit, original
+from core.edits.edit import Edit, apply_edit, original
 from core.scene import AnyScene, Scene
 from core.shaders.presets import preset_program
 from lessons.scenes import make_scene

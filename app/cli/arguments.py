@@ -18,7 +18,8 @@ from app.files.open_any import Opened, open_any
 from app.files.state_files import OutsideSourceError
 from app.usage import PROGRAM, UsageError
 from core import Settings
-from core.edits import EDITABLE, Edit, apply_edit
+from core.edits.edit import Edit, apply_edit
+from core.edits.editable import EDITABLE
 from core.lanes.problem import LISTING, Problem
 from core.scene import SIZE_LIMIT, AnyScene
 from core.setting_texts import settings_from_texts

@@ -16,8 +16,8 @@ from app.cli.commands import MOST_ROUNDS, add_allow_outside, whole_number
 from app.cli.study import aligned
 from app.usage import UsageError
 from core import Settings
-from core.study import PlanReport, Tolerance, plan_and_check
-from core.study.planner.measuring import ROUNDS
+from core.study.planner.measuring import ROUNDS, plan_and_check
+from core.study.planner.records import PlanReport, Tolerance
 
 DESCRIPTION = """Try cheaper methods at every stage and choose the cheapest whose error stays within a tolerance.
 The error is the difference from the reference settings (16 samples a pixel, each lit and textured). The plan is

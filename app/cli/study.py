@@ -19,10 +19,10 @@ from app.pages.words import (
 )
 from app.usage import UsageError
 from core import Settings
-from core.study import Study, machine, measure, pareto_front, study_families, study_family
+from core.study.families import study_families, study_family
 from core.study.family import chosen_dials
-from core.study.record import ranks
-from core.study.speed_accuracy import ROUNDS
+from core.study.record import Study, machine, pareto_front, ranks
+from core.study.speed_accuracy import ROUNDS, measure
 from core.study.stability import stress, study_experiment
 
 DESCRIPTION = """Measure every method of a family on the same work: time, work counts and errors against an exact

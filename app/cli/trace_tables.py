@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.explain import account
 from core.explain.latex import plain_text, without_macros
+from core.explain.steps import account
 from core.records.arrays import Flags
-from core.trace import Explanation, StageTrace
 from core.trace.conditions import symbols_of
+from core.trace.stage_trace import Explanation, StageTrace
 
 Header = dict[str, Any]
 BATCH = 4096

@@ -43,8 +43,8 @@ from core.scene import AnyScene
 from core.setting_texts import settings_from_texts, settings_record
 from core.settings import Settings
 from core.stages.needs import check_edits, check_needs
-from core.trace import StageTrace
 from core.trace.conditions import parse_condition
+from core.trace.stage_trace import StageTrace
 
 # Positions in state files of earlier versions: rows of traces had fewer operations then.
 
@@ -221,7 +221,7 @@ def edit_notes(settings: Settings) -> tuple[str, ...]:
     """Return what is said when a state opens that runs edited listings."""
     if not settings.replacements:
         return ()
-    from core.edits import edits_of
+    from core.edits.edit import edits_of
 
     return tuple(
         f"This runs a listing that was edited{f', “{edit.name}”' if edit.name else ''}: "
@@ -234,7 +234,7 @@ def draft_notes(look: Look, settings: Settings) -> tuple[str, ...]:
     """Return what is said when a state opens that keeps texts that do not run."""
     if not look.drafts:
         return ()
-    from core.edits import Edit, apply_edit
+    from core.edits.edit import Edit, apply_edit
     from core.lanes.problem import LISTING
     from core.lanes.run import bounded
 
@@ -254,7 +254,7 @@ def draft_notes(look: Look, settings: Settings) -> tuple[str, ...]:
 def check_drafts(look: Look) -> None:
     """Raise ValueError for a text of a listing that cannot be edited."""
     if look.drafts:
-        from core.edits import Edit
+        from core.edits.edit import Edit
 
         for draft in look.drafts:
             Edit(**dict(draft))
@@ -268,7 +268,7 @@ def _settings_and_edits(document: Document) -> tuple[dict[str, str | int], list[
         settings_as_edited,  # Few states need the evaluator.
         without_printed,
     )
-    from core.edits import edits_of, without_edits
+    from core.edits.edit import edits_of, without_edits
 
     other = document.settings
     with suppress(ValueError):  # Where they run no more, A | B has said why.
@@ -281,7 +281,8 @@ def _edited(settings: Settings, edits: Sequence[EditRecord]) -> Settings:
     """Return settings that run edited listings, of methods that they choose."""
     if not edits:
         return settings
-    from core.edits import EDITABLE, Edit, apply_edit
+    from core.edits.edit import Edit, apply_edit
+    from core.edits.editable import EDITABLE
 
     for edit in edits:
         if getattr(settings, EDITABLE[edit.part].family if edit.part in EDITABLE else "line") != edit.of:

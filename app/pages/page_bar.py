@@ -19,7 +19,7 @@ from widgets.basics.message_bar import Progress
 
 if TYPE_CHECKING:
     from app.files.preferences import Preferences
-    from core.edits import Edit
+    from core.edits.edit import Edit
     from core.scene import AnyScene
     from core.study.record import Opening
 

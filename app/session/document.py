@@ -14,11 +14,11 @@ from core.records.arrays import Floats, cached_property
 from core.resolved import resolve
 from core.scene import AnyScene, ClipScene
 from core.stages.before_matrices import before_matrices
-from core.trace import TraceSource, scene_triangle_count
-from core.trace.source import LONGEST_RUN, most_tests
+from core.trace import scene_triangle_count
+from core.trace.source import LONGEST_RUN, TraceSource, most_tests
 
 if TYPE_CHECKING:
-    from core.edits import Edit
+    from core.edits.edit import Edit
     from core.study.record import Opening
 
 
@@ -322,7 +322,7 @@ def edits_beside(document: Document) -> Document:
     settings = document.settings
     if not any(method.edits for method in settings.replacements.values()):
         return document
-    from core.edits import edits_of, without_edits
+    from core.edits.edit import edits_of, without_edits
 
     return replace(document, settings=without_edits(settings), edits=(*document.edits, *edits_of(settings)))
 

@@ -7,12 +7,13 @@ import numpy as np
 
 from app.session.document import Document
 from core import Settings
-from core.edits import EDITABLE, Edit, edited_settings, original, place_of, refusal
+from core.edits.edit import Edit, edited_settings, original, place_of
+from core.edits.editable import EDITABLE, refusal
 from core.methods import ReplacedName, table
 from core.records.listing import EditedListing, Listing
 from core.records.words import counted, joined
 from core.settings import no_effect, with_method
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 from lessons.lectures.catalogue import PRINTED, printed_listing
 from lessons.lectures.printed import ListedLines, PrintedListing
 

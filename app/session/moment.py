@@ -11,7 +11,7 @@ from core.explain.stage_texts import skipped_because
 from core.records.arrays import cached_property
 from core.records.steps import Level, Steps
 from core.scene import AnyScene
-from core.trace import Explanation, StageTrace
+from core.trace.stage_trace import Explanation, StageTrace
 from lessons.run_place import RunPlace
 
 # Where the stepping is, and where a step, a jump or another run takes it.

@@ -24,7 +24,7 @@ from core import Settings, Trace
 from core.trace.incremental.draft import Draft
 
 if TYPE_CHECKING:
-    from core.study.planner import PlanReport  # As in app.pages.page_bar.
+    from core.study.planner.records import PlanReport
 
 REST_MS = 150
 """A drag rests where it has not moved for so long, in milliseconds."""

@@ -10,7 +10,7 @@ from app.session.history import History
 from app.session.moment import NOTHING, Change, Cursor, Moment, Pixel, placed, stepped
 from core import STAGES, Trace
 from core.records.steps import Level
-from core.trace import Explanation, StageTrace
+from core.trace.stage_trace import Explanation, StageTrace
 
 
 class Stepping(QObject):

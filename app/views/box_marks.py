@@ -6,7 +6,7 @@ import numpy as np
 
 from core.culling.traced_objects import VERDICTS
 from core.records.arrays import Floats
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 
 MOST_BOXES = 120
 """Boxes that are drawn: the last ones of more."""

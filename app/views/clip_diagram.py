@@ -15,7 +15,8 @@ from core.clipping.sutherland_hodgman import distance_from
 from core.culling.culling import PLANES, REASONS
 from core.records.arrays import Floats, Integers
 from core.records.words import nouns
-from core.trace import StageTrace, Trace
+from core.trace import Trace
+from core.trace.stage_trace import StageTrace
 from widgets.space.diagram import CUBE, Diagram, Patch, Spot, Stroke, Word
 from widgets.space.orbit import Orbit
 

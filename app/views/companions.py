@@ -13,7 +13,7 @@ from core import STAGES
 from core.explain.step_tables import has_tables, largest_tables, step_table
 from core.records.arrays import Floats
 from core.records.words import nouns
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 from core.transform.traced import CLIP, SPACES, WINDOW, spaces_reached
 from widgets.basics.controls import column_layout, text_label
 from widgets.grid.layers import GridBuffer

@@ -10,7 +10,7 @@ from app.views.view_space import ViewSpace
 from core.records.arrays import Floats
 from core.records.steps import Level
 from core.scene import Scene
-from core.trace import TraceSource
+from core.trace.source import TraceSource
 from core.transform.matrices import transform
 from widgets.space.scene_view import SceneMark
 

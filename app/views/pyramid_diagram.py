@@ -17,7 +17,7 @@ from app.views.pointed_pixel import PointedPixel, fragment_at
 from core.interpolation.interpolation import numerators, plane_value, set_up_planes, value_plane
 from core.records.arrays import Floats
 from core.records.words import nouns
-from core.trace import TraceSource
+from core.trace.source import TraceSource
 from core.transform.vertex_stage import VertexStage
 from widgets.grid.layers import number_text
 from widgets.space.diagram import Diagram, Patch, Spot, Stroke, Word, clip_polygon

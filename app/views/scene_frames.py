@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Qt, QTimer, Signal, Slot
 
 from app.background import leave, seconds_to_end
-from core.fast_path import Route
-from core.fast_path.draw_context import Coloring, Visibility
+from core.fast_path.draw_context import Coloring, Route, Visibility
 from core.fast_path.workers import Sharing
 from core.records.frame import StageCount
 from core.records.words import TRIANGLES, Nouns, counted, nouns

@@ -20,7 +20,7 @@ from core.records.words import POLYGON, counted, joined, nouns
 from core.resolved import resolve
 from core.scene import ClipScene
 from core.stages.declared import GEOMETRY_STAGES, PHASES, stage_of
-from core.trace import TraceSource
+from core.trace.source import TraceSource
 from widgets.space.orbit import Orbit
 from widgets.space.scene_view import SceneView
 from widgets.space.view import OrbitArea

@@ -12,7 +12,7 @@ from core.records.words import counted, nouns
 from core.scene import ClipScene, Texture
 from core.textures.look_up import TextureSamples, sample_texture, wrap_period
 from core.textures.mipmaps import mipmap_levels, sample_mipmaps
-from core.trace import TraceSource
+from core.trace.source import TraceSource
 from widgets.grid.layers import number_text
 from widgets.space.texture_paint import TexelFootprint, TexturePicture
 

@@ -18,7 +18,7 @@ from core.methods import table
 from core.records.arrays import Flags, Integers
 from core.records.steps import Level, StepTable, TableCell
 from core.records.words import capitalized, counted, joined, noun_of, piece_name
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 
 # Clipping triangles: edges against planes, new corners in either order, and division before clipping.
 

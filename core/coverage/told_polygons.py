@@ -13,7 +13,7 @@ from core.explain.term_latex import Written
 from core.records.arrays import Integers
 from core.records.steps import StepTable
 from core.records.terms import term
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 
 # Polygon fills: the edge table, the active edges of a row, and what lies between them.
 

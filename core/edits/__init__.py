@@ -3,28 +3,3 @@
 The rule draws where nothing was typed; only what was typed runs in the lanes of `core.lanes`. An edit starts from the
 method whose listing is edited, and keeps what this method needs.
 """
-
-from core.edits.edit import (
-    Edit,
-    apply_edit,
-    edited_settings,
-    edits_of,
-    original,
-    place_of,
-    without_edits,
-)
-from core.edits.editable import EDITABLE, NOT_EDITABLE, Part, refusal
-
-__all__ = [
-    "EDITABLE",
-    "NOT_EDITABLE",
-    "Edit",
-    "Part",
-    "apply_edit",
-    "edited_settings",
-    "edits_of",
-    "original",
-    "place_of",
-    "refusal",
-    "without_edits",
-]

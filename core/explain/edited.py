@@ -25,8 +25,7 @@ from core.lines.line_clipping import ClipWindow
 from core.records.listing import EditedListing, moved_lines
 from core.records.words import counted, joined
 from core.textures.look_up import finite_coordinates
-from core.trace import Explanation
-from core.trace.stage_trace import KEPT_EXPLANATIONS, StageTrace
+from core.trace.stage_trace import KEPT_EXPLANATIONS, Explanation, StageTrace
 
 GIVEN = {
     "cull": {"corners": "eye_corners", "given": "object_corners"},

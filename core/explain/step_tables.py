@@ -19,7 +19,7 @@ from core.explain.steps import load_subjects, sentence
 from core.records.arrays import Integers
 from core.records.steps import Level, StepTable, TableCell, TableColumn
 from core.records.words import nouns
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 
 Maker = Callable[[StageTrace, Integers, int], StepTable]
 """Makes the table of rows (r,) of a trace, all those of one unit that are of its kinds, at a position."""

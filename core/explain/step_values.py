@@ -19,7 +19,7 @@ from core.explain.records import Asked, Formula
 from core.records.arrays import Flags, Integers
 from core.records.listing import Columns
 from core.records.words import Nouns, nouns
-from core.trace import Explanation
+from core.trace.stage_trace import Explanation
 
 # The numbers of one step by name and type, as sentences, formulas and tables read them.
 

@@ -15,8 +15,7 @@ from core.explain.step_values import REMARKS, Row, StepValues, find_row, key_fie
 from core.methods import modules_in
 from core.records.listing import EditedListing, ShaderListing
 from core.records.words import capitalized, counted, joined
-from core.trace import Explanation, StageTrace
-from core.trace.stage_trace import KEPT_EXPLANATIONS
+from core.trace.stage_trace import KEPT_EXPLANATIONS, Explanation, StageTrace
 
 # How the variables of a trace are shown in the table: name, meaning, and when they are known.
 

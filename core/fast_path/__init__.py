@@ -19,8 +19,3 @@ Memory: at most 24 bytes a pixel (40 with four samples), 900 bytes a triangle an
 fragment by fragment), of which the words (8 bytes a pixel) and the spans of 16,384 triangles stay in `ScratchBuffers`
 from picture to picture (tested).
 """
-
-from core.fast_path.draw import draw_picture
-from core.fast_path.draw_context import Picture, Route, Split
-
-__all__ = ["Picture", "Route", "Split", "draw_picture"]

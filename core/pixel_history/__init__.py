@@ -9,7 +9,7 @@ own; of exact areas ``pieces`` lists which triangle covers how much of the pixel
 
 from core.pixel_history.candidates import PixelCandidates, candidates_at, check_pixel, whole_geometry
 from core.pixel_history.events import list_events, pixel_verdict, triangle_verdict
-from core.pixel_history.fragments import Link, PixelEvent, PixelHistory, PixelState
+from core.pixel_history.fragments import PixelHistory
 from core.resolved import resolve
 from core.settings import Settings
 from core.trace import scene_triangle_count
@@ -75,6 +75,3 @@ def _check_sample(sample: int, settings: Settings) -> None:
         )
     if not 0 <= sample < count:
         raise ValueError(f"sample must be 0 to {count - 1}, got {sample}")
-
-
-__all__ = ["Link", "PixelEvent", "PixelHistory", "PixelState", "why"]

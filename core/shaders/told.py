@@ -11,7 +11,7 @@ from core.explain.records import Formula
 from core.explain.step_values import Said, StepValues, explains
 from core.records.steps import Level
 from core.records.words import joined
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 
 LONGEST_CELL = 60
 """Signs of a cell with its numbers: beyond them vectors keep their names."""

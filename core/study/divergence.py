@@ -25,8 +25,8 @@ from core.shaders.lane_steps import stored_name
 from core.shaders.traced import ShaderStageTrace
 from core.stages.declared import STAGES, stage_of
 from core.stages.fragment_color import has_program
-from core.trace import StageTrace, Trace, trace
-from core.trace.stage_trace import Value
+from core.trace import Trace, trace
+from core.trace.stage_trace import StageTrace, Value
 
 # Where two settings first part ways on one scene: the stage, the row in drawing order, and the numbers that
 # differ.

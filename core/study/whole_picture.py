@@ -13,7 +13,8 @@ from math import ceil
 import numpy as np
 
 from core.antialiasing.measured import can_be_sampled, sampled_rows, spread_rows
-from core.fast_path import Picture, draw_picture
+from core.fast_path.draw import draw_picture
+from core.fast_path.draw_context import Picture
 from core.framebuffer.display import encode_linear
 from core.methods import table
 from core.pipeline import render

@@ -4,7 +4,8 @@ import numpy as np
 
 from core.records.arrays import Floats
 from core.scene import Scene
-from core.trace import StageTrace, Trace
+from core.trace import Trace
+from core.trace.stage_trace import StageTrace
 from core.transform.matrices import transform
 
 OF_A_POINT = ("parameter", "parameter-v", "mix", "mix-row", "mix-column", "normal", "emit")

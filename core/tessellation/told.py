@@ -15,7 +15,7 @@ from core.records.steps import StepTable
 from core.records.words import counted
 from core.tessellation.reyes import GRID_SIDE
 from core.tessellation.segments import MOST_HALVINGS
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 
 POINTS = "parameter|parameter-v|mix|mix-row|mix-column|normal|emit"
 CUTS = "cut-equal|cut-bound|cut-halve|cut-split|cut-dice"

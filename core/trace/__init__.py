@@ -7,7 +7,6 @@ and what traces it is imported no earlier.
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from core.lazy_import import import_on_demand
 from core.records.arrays import cached_property
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings
@@ -15,15 +14,7 @@ from core.stages.declared import STAGES
 
 if TYPE_CHECKING:
     from core.trace.source import TraceSource
-    from core.trace.stage_trace import BufferTrack, Explanation, StageTrace
-else:
-    __getattr__ = import_on_demand(
-        globals(),
-        BufferTrack="core.trace.stage_trace",
-        Explanation="core.trace.stage_trace",
-        StageTrace="core.trace.stage_trace",
-        TraceSource="core.trace.source",
-    )
+    from core.trace.stage_trace import StageTrace
 
 
 class Trace:
@@ -109,14 +100,3 @@ def scene_triangle_count(scene: AnyScene) -> int:
     if isinstance(scene, ClipScene):
         return len(scene.clip if scene.table is None else scene.table.depths)
     return sum(len(mesh.triangles) for mesh in scene.meshes)
-
-
-__all__ = [
-    "BufferTrack",
-    "Explanation",
-    "StageTrace",
-    "Trace",
-    "TraceSource",
-    "scene_triangle_count",
-    "trace",
-]

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.fast_path import Picture
+from core.fast_path.draw_context import Picture
 from core.records.box_tree import BoxTree
 from core.scene import AnyScene
 from core.settings import Settings

@@ -10,7 +10,7 @@ from core.explain.steps import VariableText, shows
 from core.records.arrays import Integers
 from core.records.steps import StepTable
 from core.records.words import counted
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 
 KINDS = "list-leaf|bvh-leaf|bvh-node|bvh-area-node|octree-leaf|octree-node"
 MOST_NODES = 40

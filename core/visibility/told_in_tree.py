@@ -11,7 +11,7 @@ from core.explain.steps import VariableText, shows
 from core.records.arrays import Integers
 from core.records.steps import StepTable
 from core.records.words import counted
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 
 BOXES = "tree-missed|tree-behind|tree-node|tree-leaf"
 

@@ -9,7 +9,7 @@ from core.explain.steps import VariableText, hides, shows
 from core.records.arrays import Integers
 from core.records.steps import Level, StepTable, TableCell, TableColumn
 from core.records.words import joined, nouns
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 from core.visibility.newell import PairTests, find_cycle
 from core.visibility.traced_order import SORT_OPERATIONS, SortedTriangles
 

@@ -14,7 +14,7 @@ from core.explain.steps import VariableText, given, hides, shows
 from core.records.arrays import Integers
 from core.records.steps import Level, StepTable, TableCell, TableColumn
 from core.records.words import counted
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 from core.visibility.told import NEAREST, NEW, doubted, measure, nearer
 
 _VERDICTS = "scan-same|scan-pair|scan-halve"

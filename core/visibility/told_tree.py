@@ -11,7 +11,7 @@ from core.explain.steps import VariableText, hides, shows
 from core.records.arrays import Integers
 from core.records.steps import Level, StepTable, TableCell, TableColumn
 from core.records.words import counted, nouns, piece_name
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 from core.visibility.bsp import BspTree
 from core.visibility.traced_order import TREE_OPERATIONS
 

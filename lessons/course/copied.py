@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 
 from core import Settings, Trace
-from core.edits import Edit
+from core.edits.edit import Edit
 from core.records.arrays import Floats
 from core.scene import AnyScene, ClipScene, PointLight, Scene
 from core.setting_texts import settings_from_texts, settings_record
-from core.trace import StageTrace
 from core.trace.run_to import END
+from core.trace.stage_trace import StageTrace
 from lessons.course.quoted import flags_of
 from lessons.course.state import changes_of_edits, shaders_of
 from lessons.exercises.record import PRIMITIVE_LIMIT

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from core import Settings, Trace, render
-from core.edits import Edit, edited_settings
+from core.edits.edit import Edit, edited_settings
 from core.framebuffer.display import to_display
 from core.records.arrays import Flags
 from core.records.frame import Frame
@@ -21,10 +21,10 @@ from core.records.listing import read_expression
 from core.scene import AnyScene, Scene
 from core.setting_texts import settings_from_texts
 from core.study.planner.trials import difference
-from core.trace import StageTrace, trace
+from core.trace import trace
 from core.trace.conditions import Condition, TraceNames, evaluate, parse_condition, spelled
 from core.trace.run_to import named_position
-from core.trace.stage_trace import MARKS
+from core.trace.stage_trace import MARKS, StageTrace
 from lessons.exercises.drafting import different_pixels
 
 COUNTS = ("drawn", "twice", "tested", "decisions", "colors", "rows")

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from core import STAGES, Settings, Trace, trace
-from core.edits import EDITABLE, Edit, edited_settings, original, refusal
+from core.edits.edit import Edit, edited_settings, original
+from core.edits.editable import EDITABLE, refusal
 from core.methods import ReplacedName
 from core.scene import AnyScene, ClipScene, DirectionalLight, PointLight, Scene
 from core.setting_texts import settings_from_texts

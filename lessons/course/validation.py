@@ -4,7 +4,7 @@ from collections.abc import Callable, Collection
 from functools import partial
 from typing import TypeVar
 
-from core.study import study_families
+from core.study.families import study_families
 from core.study.stability import experiments
 from lessons.course.catalogue import Lesson, headings
 from lessons.course.quoted import Situation, is_right, said_instead

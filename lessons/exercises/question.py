@@ -9,13 +9,13 @@ import numpy as np
 
 from core import Settings, trace
 from core.coverage.pixel_runs import Raster
-from core.explain import question
+from core.explain.steps import question
 from core.records.cells import Sketch
 from core.records.words import counted
 from core.scene import AnyScene
 from core.settings import DEFAULTS
-from core.trace import StageTrace
 from core.trace.run_to import named_position
+from core.trace.stage_trace import StageTrace
 from lessons.exercises.answers.answer import Answer, Response, Verdict
 from lessons.exercises.answers.choices import ChoiceAnswer
 from lessons.exercises.answers.fields import NumberAnswer

@@ -17,8 +17,7 @@ from core.coverage.snapping import window_position
 from core.scene import AnyScene, ClipScene
 from core.setting_texts import settings_from_texts, settings_record
 from core.stages.declared import stage_of
-from core.trace import StageTrace
-from core.trace.stage_trace import BufferTrack
+from core.trace.stage_trace import BufferTrack, StageTrace
 from lessons.exercises.answers.answer import Answer
 from lessons.exercises.answers.choices import ChoiceAnswer
 from lessons.exercises.answers.fields import NumberAnswer

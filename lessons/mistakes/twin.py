@@ -8,7 +8,7 @@ import numpy as np
 
 from core import Settings, clip_lines, draw_lines, render
 from core.coverage.snapping import window_position
-from core.edits import Edit, apply_edit, original
+from core.edits.edit import Edit, apply_edit, original
 from core.records.arrays import Floats
 from core.records.frame import Frame
 from core.scene import AnyScene, ClipScene

@@ -11,8 +11,9 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
-from core.study import Point, measure, study_families
-from core.study.record import CLOSE, is_faster
+from core.study.families import study_families
+from core.study.record import CLOSE, Point, is_faster
+from core.study.speed_accuracy import measure
 from tests.core.study.accuracy.order_agreement import kendall_tau
 
 BUSY = (

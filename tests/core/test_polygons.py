@@ -13,7 +13,7 @@ from core import STAGES, ClipScene, Settings, assemble, render, trace
 from core.coverage.active_edges import fill_listing
 from core.coverage.snapping import SUBPIXELS
 from core.coverage.traced_polygons import ENTER, LEAVE
-from core.explain import account
+from core.explain.steps import account
 from core.methods import table
 from tests.core.agreement import Case, check_case
 from tests.core.strategies import clip_of_window

@@ -12,7 +12,7 @@ from core import STAGES, ClipScene, Settings, draw_lines, render, trace
 from core.clipping.planes import clip_segments
 from core.clipping.sutherland_hodgman import ALL_PLANES
 from core.culling.culling import plane_distances
-from core.explain import account
+from core.explain.steps import account
 from core.methods import table
 from core.records.primitives import Primitives
 from core.scene import CORNER_COUNTS

@@ -8,7 +8,7 @@ import pytest
 from app.files.open_any import open_any
 from app.session.document import STEPPED
 from core import Settings, render, trace
-from core.explain import account, formula, variables
+from core.explain.steps import account, formula, variables
 from core.stages.declared import STAGES
 from lessons.lectures.catalogue import printed_listing
 from lessons.lectures.scenes import ALL_SCENES, LECTURE_SCENES, LECTURES

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from core import Settings, render, trace
-from core.explain import account, variables
+from core.explain.steps import account, variables
 from core.methods import table
 from core.records.listing import listing
 from lessons.assembled_scenes import assembled

@@ -6,7 +6,7 @@ import pytest
 
 from app.files.open_any import open_any
 from app.session.moment import cursor_at
-from core.explain import account
+from core.explain.steps import account
 from core.records.steps import Level
 from core.stages.declared import stage_of
 from lessons.lectures.scenes import ALL_SCENES

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.study import study_family
+from core.study.families import study_family
 from core.study.record import Opening, Verdict, judged
 from core.study.stability import Outcome, stress, study_experiment
 from core.study.stress import shrink_cell

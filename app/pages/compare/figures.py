@@ -20,7 +20,7 @@ from app.pages.words import (
 )
 from core.methods import table
 from core.records.words import counted
-from core.study import study_families
+from core.study.families import study_families
 from core.study.family import StudyFamily
 from core.study.record import Axis, ErrorMeasure, Point, Study, WorkKind, ranks
 from core.study.speed_accuracy import ROUNDS

@@ -15,9 +15,11 @@ from app.pages.result_page import Result
 from app.session.document import TEACHING_LIMIT, TRACED_TOGETHER, part_around
 from core.scene import AnyScene
 from core.settings import Settings
-from core.study import Opening, Pictures, Plan, Point, Study, opening, pictures
 from core.study.divergence import first_divergence
 from core.study.family import Candidate, settings_of
+from core.study.planner.records import Plan
+from core.study.record import Opening, Pictures, Point, Study
+from core.study.speed_accuracy import opening, pictures
 from core.trace import scene_triangle_count
 from widgets.experiments.case_pictures import PicturesRecord
 from widgets.grid.layers import BufferKind, GridBuffer, number_text

@@ -29,9 +29,9 @@ from app.pages.result_page import ResultKind, ResultPage
 from app.session.moment import Change
 from app.session.session import Session
 from core.records.words import counted
-from core.study import machine, measure
 from core.study.family import Candidate
-from core.study.record import Point, Study
+from core.study.record import Point, Study, machine
+from core.study.speed_accuracy import measure
 from core.study.whole_picture import PIPELINE, SAMPLED_COLOR
 from widgets.basics.controls import row_layout
 from widgets.experiments.case_pictures import StudyPictures

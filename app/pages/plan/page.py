@@ -11,7 +11,8 @@ from app.pages.plan.plans import EMPTY, PlanShown, applied_text, drawn_choice, p
 from app.session.moment import Change
 from app.session.session import Session
 from core.settings import Settings
-from core.study import Tolerance, reference_settings
+from core.study.planner.records import Tolerance
+from core.study.planner.reference_settings import reference_settings
 from widgets.experiments.case_pictures import StudyPictures
 from widgets.experiments.plan import PlanControls, PlanFindings, PlanRows, PlanSummary
 

@@ -16,21 +16,20 @@ from core.methods import table
 from core.records.words import counted, joined, nouns
 from core.scene import AnyScene
 from core.settings import Settings
-from core.study import (
+from core.study.planner.measuring import alone_settings, check_plan
+from core.study.planner.planning import plan
+from core.study.planner.records import (
     Decision,
     Findings,
-    Opening,
+    Outcome,
     Plan,
     PlanReport,
-    StudyCancelledError,
+    Tessellation,
     Tolerance,
-    check_plan,
-    plan,
+    in_bytes,
 )
-from core.study.planner import Outcome, Tessellation
-from core.study.planner.measuring import alone_settings
-from core.study.planner.records import in_bytes
 from core.study.planner.trials import difference, shown
+from core.study.record import Opening, StudyCancelledError
 from widgets.experiments.case_pictures import PicturesRecord
 from widgets.experiments.plan import PlanRow, SummaryRecord, Verdict
 from widgets.grid.layers import GridBuffer

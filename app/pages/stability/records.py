@@ -16,7 +16,7 @@ from core.explain.stage_texts import family_title
 from core.framebuffer.display import to_display
 from core.records.words import counted
 from core.scene import ClipScene
-from core.study import Opening
+from core.study.record import Opening
 from core.study.stability import Atlas, Axis, ExperimentInfo, Outcome, StabilityMap, Verdict
 from widgets.experiments.case_pictures import CaseRecord
 from widgets.experiments.maps import UNKNOWN, AtlasAxis, AtlasMap, AtlasRecord, CellKind, CellPlace

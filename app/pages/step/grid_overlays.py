@@ -16,7 +16,8 @@ from core.records.primitives import Rings, join_rings
 from core.records.steps import Level
 from core.stages.primitives import OutlineClip, region_in_pixels
 from core.tessellation.scheme import scheme_of
-from core.trace import StageTrace, Trace
+from core.trace import Trace
+from core.trace.stage_trace import StageTrace
 from core.transform.traced import WINDOW, spaces_reached
 from widgets.grid.layers import CellMark, GridBuffer, MaskOverlay, Overlay, SegmentOverlay
 from widgets.grid.marks import StepMark, box_lines

@@ -16,9 +16,9 @@ from core.framebuffer.display import to_display
 from core.records.arrays import Integers
 from core.records.primitives import own_corners
 from core.resolved import resolve
-from core.trace import BufferTrack, StageTrace, TraceSource
 from core.trace.conditions import symbols_of
-from core.trace.stage_trace import PRESENTED
+from core.trace.source import TraceSource
+from core.trace.stage_trace import PRESENTED, BufferTrack, StageTrace
 from core.transform.traced import WINDOW, is_dropped, spaces_reached
 from widgets.grid.geometry import GridGeometry
 from widgets.grid.layers import (

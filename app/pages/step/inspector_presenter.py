@@ -16,24 +16,15 @@ from app.session.moment import Moment, Step, stage_for
 from app.session.session import Session
 from app.session.tracing import QUICK_SECONDS
 from core import STAGES, Trace
-from core.explain import (
-    formula,
-    initial_sentence,
-    remarks,
-    row_sentence,
-    sentence,
-    stage_card,
-    summary_sentence,
-    variables,
-)
 from core.explain.records import Variable
-from core.explain.steps import load_subjects
+from core.explain.stage_texts import initial_sentence, stage_card, summary_sentence
+from core.explain.steps import formula, load_subjects, remarks, row_sentence, sentence, variables
 from core.records.listing import Listing
 from core.records.steps import Level
 from core.shaders.told import statements_summary
 from core.stages.declared import stage_of
-from core.trace import Explanation
 from core.trace.origins import Origin, origin
+from core.trace.stage_trace import Explanation
 from core.trace.tracers import load_tracers
 from widgets.inspector.formula_layout import FormulaNumber
 from widgets.inspector.formula_view import Formula, FormulaView

@@ -16,8 +16,8 @@ from core import Trace
 from core.records.arrays import Integers
 from core.records.steps import Level
 from core.stages.declared import stage_of
-from core.trace import StageTrace
 from core.trace.conditions import Condition, parse_condition
+from core.trace.stage_trace import StageTrace
 from widgets.space.orbit import Orbit
 
 if TYPE_CHECKING:

@@ -44,7 +44,7 @@ class ListingOutcome(QObject):
     def _name_mistake(self, outcome: "Outcome") -> None:
         """Say that an edit draws what a mistake of the shelf draws, or what the method draws."""
         from app.session.named_mistakes import exercise_about, lesson_about
-        from core.edits import EDITABLE
+        from core.edits.editable import EDITABLE
 
         if self._pane.editor.has_problem or not self._session.document.edits:
             return

@@ -21,7 +21,7 @@ from widgets.inspector.listing_pane import A, B, ListingPane, PaneHead
 
 if TYPE_CHECKING:
     from app.pages.step.page import StepPage
-    from core.edits import Edit  # As in app.session.document.
+    from core.edits.edit import Edit
 
 HIDDEN = "While you predict, or a question is asked about this scene, no listing can be edited."
 ASKED = "A's listing is hidden: it is asked for"
@@ -192,7 +192,7 @@ class ListingPresenter(QObject):
             self._set_side(B)
         if self._pane.is_editing and self._place is not None:
             from app.session.listing_runs import edit_of
-            from core.edits import original
+            from core.edits.edit import original
 
             edit = edit_of(document, self._place)
             self._pane.editor.show_text(edit.text if edit else original(*self._place).source)
@@ -218,7 +218,7 @@ class ListingPresenter(QObject):
             self._later.start(LATER_MS)
             return
         from app.session.listing_runs import changed_lines, changed_text, edit_of, edited_place, why_not
-        from core.edits import original
+        from core.edits.edit import original
 
         place = self._place if self._pane.is_editing else edited_place(listing, document)
         edit = edit_of(document, place)
@@ -293,7 +293,7 @@ class ListingPresenter(QObject):
     def begin(self, line: int = 0) -> None:
         """Edit the listing that is shown, from a line (from 1) on; 0: the line of the step."""
         from app.session.listing_runs import edit_of, edited_place, why_not
-        from core.edits import Edit, original
+        from core.edits.edit import Edit, original
 
         moment, listing = self._session.moment, self._inspector.shown_listing
         if moment.is_predicting or moment.is_asked_about:
@@ -351,7 +351,7 @@ class ListingPresenter(QObject):
     def reset(self) -> None:
         """Take all changes of the listing that is shown back, or else the last edit of another one."""
         from app.session.listing_runs import edit_of, edited_place, without_edit
-        from core.edits import original
+        from core.edits.edit import original
 
         document = self._session.latest
         place = self._place if self._pane.is_editing else None
@@ -386,7 +386,7 @@ class ListingPresenter(QObject):
     def _try(self, text: str) -> None:
         """Run what is typed; B stays the last version that ran where it cannot."""
         from app.session.listing_runs import edit_of, with_edit
-        from core.edits import Edit
+        from core.edits.edit import Edit
 
         if self._place is None:
             return

@@ -17,7 +17,7 @@ from app.session.moment import Moment
 from app.session.session import Session
 from app.views.scene_frames import SceneWorker
 from core import STAGES
-from core.fast_path import draw_picture
+from core.fast_path.draw import draw_picture
 from core.framebuffer.display import Bytes
 from core.records.arrays import Floats
 from core.scene import AnyScene

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from app.session.moment import Moment
-from core.explain import variables
 from core.explain.number_text import parse_number
+from core.explain.steps import variables
 from core.framebuffer.display import encode_linear, encode_srgb
-from core.pixel_history import PixelEvent, PixelHistory, PixelState, why
-from core.pixel_history.fragments import PixelPieces, pixel_pieces
+from core.pixel_history import why
+from core.pixel_history.fragments import PixelEvent, PixelHistory, PixelPieces, PixelState, pixel_pieces
 from core.pixel_history.told import count_sentences, event_reason, event_title, verdict_sentence
 from core.pixel_history.told_coverage import (
     of_sample,
@@ -23,8 +23,9 @@ from core.pixel_history.told_coverage import (
 from core.records.arrays import Singles
 from core.records.words import Nouns, counted, nouns, sentence_case
 from core.resolved import resolve
-from core.trace import Explanation, TraceSource
 from core.trace.origins import Origin
+from core.trace.source import TraceSource
+from core.trace.stage_trace import Explanation
 from widgets.basics.drawing import Mark
 from widgets.inspector.formula_layout import FormulaNumber
 from widgets.inspector.pixel_history import HistoryEntry, PixelStory, PixelValue

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from app.pages.step.grid_overlays import Guesses
 from core.coverage.pixel_runs import Raster
 from core.explain.records import AnswerKind, Question, Verdict
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 from lessons.exercises.answers.choices import ChoiceAnswer
 from lessons.exercises.answers.marked import PixelAnswer
 from lessons.exercises.question import Draft, coverage_sentence, next_draft, pixel_sentence

@@ -6,7 +6,7 @@ from time import perf_counter
 
 import numpy as np
 
-from core.fast_path import draw_picture
+from core.fast_path.draw import draw_picture
 from core.records.arrays import Floats, Integers
 from core.records.words import capitalized
 from core.scene import AnyScene

@@ -26,7 +26,7 @@ from core.antialiasing.resolve import at_sample, finer_raster, finer_scene, fine
 from core.coverage.binning import bound
 from core.coverage.pixel_runs import Raster, make_raster
 from core.depth.depth import DepthFormat, Stored
-from core.fast_path import draw_picture
+from core.fast_path.draw import draw_picture
 from core.framebuffer.display import to_display
 from core.methods import table
 from core.pipeline import draw

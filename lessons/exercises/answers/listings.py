@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import ClassVar, TypeVar
 
 from core import Settings, render
-from core.edits import Edit, apply_edit, original
+from core.edits.edit import Edit, apply_edit, original
 from core.lanes.problem import Place, Problem
 from core.records.cells import Form
 from core.records.frame import Frame

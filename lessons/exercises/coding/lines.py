@@ -6,7 +6,7 @@ from math import gcd
 from typing import Any
 
 from core import Settings
-from core.edits import original
+from core.edits.edit import original
 from lessons.exercises.coding.task import SIDE, Case, Fault, Shown, Task, in_classes
 from lessons.exercises.coding.triangles import INSIDE
 from lessons.small_scenes import segment_scene

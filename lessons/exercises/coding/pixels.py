@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from core import Settings
-from core.edits import original
+from core.edits.edit import original
 from lessons.exercises.coding.task import SIDE, Case, Fault, Shown, Task, in_classes
 from lessons.exercises.coding.triangles import (
     corners_text,

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from core import Settings
-from core.edits import original
+from core.edits.edit import original
 from lessons.exercises.coding.task import SIDE, Case, Fault, Shown, Task, in_classes
 from lessons.small_scenes import triangle_scene
 

@@ -13,7 +13,7 @@ from core.explain.number_text import number_text as explained_number
 from core.explain.records import Value as ShownValue
 from core.explain.records import Variable
 from core.explain.steps import variables
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 from lessons.exercises.answers.answer import Answer, Entry, Value
 from lessons.exercises.answers.choices import ChoiceAnswer
 from lessons.exercises.answers.steps import Run, StepsAnswer, first_tries

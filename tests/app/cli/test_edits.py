@@ -8,7 +8,7 @@ import pytest
 
 from app.cli.arguments import SIZE_LIMIT, read_listing, size_from_text
 from core import Settings, render
-from core.edits import Edit, apply_edit, original
+from core.edits.edit import Edit, apply_edit, original
 from lessons.scenes import make_scene
 from tests.app.cli.cli_runs import refused, run_program
 

@@ -10,7 +10,7 @@ from app.files.state_files import EXTENSION, State, StateFileError, load_state, 
 from app.files.state_models import DraftRecord, Look
 from app.session.document import Document, TeachingRaster
 from core import Settings, render
-from core.edits import Edit, apply_edit, edits_of, original
+from core.edits.edit import Edit, apply_edit, edits_of, original
 from lessons.mistakes.twin import frame_bytes
 from lessons.scenes import make_scene
 

@@ -23,8 +23,8 @@ from app.pages.compare.study_files import (
 )
 from app.pages.words import digits, time_text
 from core import Settings
-from core.study import ErrorMeasure, Point, Study, WorkKind, machine, measure, pareto_front
-from core.study.record import Axis
+from core.study.record import Axis, ErrorMeasure, Point, Study, WorkKind, machine, pareto_front
+from core.study.speed_accuracy import measure
 from widgets.basics.theme import DARK, LIGHT, current_theme, paint_as
 from widgets.experiments.chart import Chart
 

@@ -34,8 +34,8 @@ from app.views.scene_picture import (
 from app.views.view_space import make_space, thinned, viewed_scene, viewing_camera
 from core import STAGES, Settings, render
 from core.culling.culling import plane_distances
-from core.fast_path import Route, Split, draw_picture
-from core.fast_path.draw_context import Coloring, Visibility
+from core.fast_path.draw import draw_picture
+from core.fast_path.draw_context import Coloring, Route, Split, Visibility
 from core.fast_path.workers import BandTime, BandWorkers, Sharing
 from core.records.frame import StageCount
 from core.transform.vertex_stage import transform_vertices

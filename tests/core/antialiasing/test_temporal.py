@@ -24,7 +24,7 @@ from core.coverage.pixel_runs import Raster
 from core.framebuffer.display import to_display
 from core.pipeline import draw, mixed_pictures
 from core.records.motion import Motion
-from core.trace import TraceSource
+from core.trace.source import TraceSource
 from lessons.scenes import make_scene
 from tests.core.strategies import ANY_TRIANGLES
 

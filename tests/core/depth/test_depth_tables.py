@@ -22,7 +22,7 @@ from core.records.depth_table import (
 )
 from core.scene import ClipScene
 from core.stages.declared import STAGES
-from core.trace import TraceSource
+from core.trace.source import TraceSource
 from lessons.window_scenes import LEVEL, SLOPING, depth_table, two_triangles, two_triangles_turned
 
 COMPARE = {"<": float.__lt__, "≤": float.__le__, ">": float.__gt__, "≥": float.__ge__}

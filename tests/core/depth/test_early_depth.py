@@ -18,7 +18,7 @@ from core.pixel_history.told import event_reason
 from core.settings import no_effect
 from core.stages.passes import planned_passes
 from core.study.family import Assignment
-from core.trace import TraceSource
+from core.trace.source import TraceSource
 from tests.core.strategies import perspective_triangles
 from tests.core.trace.trace_cases import SCENES
 

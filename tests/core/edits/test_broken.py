@@ -5,7 +5,7 @@ import re
 import pytest
 
 from core import Settings, render
-from core.edits import Edit, apply_edit, original
+from core.edits.edit import Edit, apply_edit, original
 from core.lanes.problem import Problem
 from lessons.scenes import make_scene
 from tests.texts import cases_of

@@ -8,21 +8,11 @@ import numpy as np
 import pytest
 
 from core import Settings, draw_picture, render, trace
-from core.edits import (
-    EDITABLE,
-    NOT_EDITABLE,
-    Edit,
-    apply_edit,
-    edits_of,
-    original,
-    place_of,
-    refusal,
-    without_edits,
-)
+from core.edits.edit import Edit, apply_edit, edits_of, original, place_of, without_edits
+from core.edits.editable import EDITABLE, NOT_EDITABLE, refusal
 from core.edits.typed import Typed
-from core.explain import formula
 from core.explain.edited import edited_step
-from core.explain.steps import sentence
+from core.explain.steps import formula, sentence
 from core.framebuffer.display import to_display
 from core.lanes.problem import Problem
 from core.methods import table

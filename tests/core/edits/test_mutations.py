@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from core import Settings, draw_lines, render
-from core.edits import EDITABLE, Edit, apply_edit, original, refusal
+from core.edits.edit import Edit, apply_edit, original
+from core.edits.editable import EDITABLE, refusal
 from core.lanes.problem import LISTING, Problem
 from core.methods import table
 from lessons.small_scenes import triangle_scene

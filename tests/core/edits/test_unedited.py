@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from core import Settings, Texture, clip_lines, draw_lines, render, trace
-from core.edits import EDITABLE, Edit, apply_edit, edits_of, original, place_of, refusal, without_edits
+from core.edits.edit import Edit, apply_edit, edits_of, original, place_of, without_edits
+from core.edits.editable import EDITABLE, refusal
 from core.edits.typed import Typed
-from core.explain import variables
+from core.explain.steps import variables
 from core.lanes.python_values import at_lane
 from core.lines.line_method import check_segments
 from core.methods import table

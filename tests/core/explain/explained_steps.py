@@ -10,14 +10,14 @@ from zlib import crc32
 import numpy as np
 
 from core import STAGES, ClipScene, Settings, Trace, render, trace
-from core.explain import account, formula, variables
 from core.explain.records import Formula, Variable
+from core.explain.steps import account, formula, variables
 from core.methods import table
 from core.records.motion import Motion
 from core.scene import AnyScene
 from core.settings import families
 from core.stages.needs import refusal
-from core.trace import Explanation, StageTrace
+from core.trace.stage_trace import Explanation, StageTrace
 from lessons.scenes import make_scene, scene_names
 from tests.core.shaders.scenes import square_scene
 from tests.core.strategies import clip_of_window

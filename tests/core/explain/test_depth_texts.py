@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.explain import formula
 from core.explain.stage_texts import NEARNESS, depth_text
+from core.explain.steps import formula
 from core.methods import table
-from core.trace import Explanation
+from core.trace.stage_trace import Explanation
 
 
 @pytest.mark.parametrize("name", table.names("depth"))

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 from core import Settings, trace
-from core.edits import Edit, apply_edit, original
-from core.explain import formula, sentence, variables
+from core.edits.edit import Edit, apply_edit, original
 from core.explain.latex import split_cells
-from core.explain.steps import load_subjects
+from core.explain.steps import formula, load_subjects, sentence, variables
 from core.records.listing import EditedListing
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 from lessons.scenes import make_scene
 
 SHARED = "shared-edge"

@@ -10,14 +10,14 @@ from hypothesis import strategies as st
 from pytestqt.qtbot import QtBot
 
 from core import ClipScene, Settings, trace
-from core.explain import formula
 from core.explain.formulas import Stated, call, formula_of, is_same, named, on_grid
 from core.explain.latex import split_cells
 from core.explain.number_text import latex_text
 from core.explain.records import Formula
+from core.explain.steps import formula
 from core.explain.term_latex import TermLatex, work_out
 from core.records.terms import Operation, Term, term
-from core.trace import Explanation
+from core.trace.stage_trace import Explanation
 from tests.core.explain.explained_steps import all_said, rare_trace, steps_of
 from tests.core.explain.read_formulas import BREAKS, RELATIONS, holds, read, statements
 from widgets.inspector.formula_view import FormulaView

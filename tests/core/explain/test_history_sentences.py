@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from core import ClipScene, Settings
 from core.methods import table
-from core.pixel_history import Link, PixelHistory, why
+from core.pixel_history import why
+from core.pixel_history.fragments import Link, PixelHistory
 from core.pixel_history.told import (
     COUNTED,
     SENTENCES,

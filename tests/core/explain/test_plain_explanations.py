@@ -3,7 +3,8 @@
 from collections.abc import Iterator
 
 from core import STAGES
-from core.explain import initial_sentence, question, stage_card
+from core.explain.stage_texts import initial_sentence, stage_card
+from core.explain.steps import question
 from core.methods import table
 from core.settings import families
 from tests.core.explain.explained_steps import all_said, fewest_traces

@@ -15,13 +15,15 @@ import numpy as np
 
 from core import STAGES, ClipScene, Settings, Trace, trace
 from core.depth.told import passes
-from core.edits import Edit, apply_edit, original
-from core.explain import account, initial_sentence, summary_sentence
+from core.edits.edit import Edit, apply_edit, original
 from core.explain.latex import plain_text
+from core.explain.stage_texts import initial_sentence, summary_sentence
 from core.explain.step_tables import step_table
 from core.explain.step_values import StepValues
+from core.explain.steps import account
 from core.methods import table
-from core.pixel_history import Link, PixelHistory, why
+from core.pixel_history import why
+from core.pixel_history.fragments import Link, PixelHistory
 from core.pixel_history.told import (
     count_sentences,
     event_reason,
@@ -31,8 +33,8 @@ from core.pixel_history.told import (
 )
 from core.records.steps import Level
 from core.scene import AnyScene
-from core.trace import Explanation, StageTrace
 from core.trace.source import TraceSource
+from core.trace.stage_trace import Explanation, StageTrace
 from lessons.lectures.scenes import ALL_SCENES, clipped, degenerate, frustum_segments
 from lessons.scenes import built_in_scene, make_scene
 from lessons.window_scenes import window_triangle

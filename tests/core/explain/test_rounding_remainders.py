@@ -6,9 +6,9 @@ from collections.abc import Iterator
 import pytest
 
 from core import STAGES, Settings, trace
-from core.explain import sentence
 from core.explain.number_text import remainder_note
-from core.trace import StageTrace
+from core.explain.steps import sentence
+from core.trace.stage_trace import StageTrace
 from lessons.lectures.scenes import ALL_SCENES
 from tests.core.explain.explained_steps import places_of, step_at
 

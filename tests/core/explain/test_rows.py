@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from core import STAGES, Settings
-from core.explain import question
 from core.explain.step_values import ROWS, explains, row_key
-from core.explain.steps import load_subjects, row_of
+from core.explain.steps import load_subjects, question, row_of
 from core.methods import table
 from lessons.lectures.catalogue import PRINTED
 from tests.core.explain.explained_steps import all_steps, fewest_traces, line_trace, traces

@@ -5,8 +5,8 @@ import re
 import pytest
 
 from core import STAGES, Settings, trace
-from core.explain import formula, sentence, variables
 from core.explain.latex import plain_text
+from core.explain.steps import formula, sentence, variables
 from core.lines.drawing import point_listing
 from lessons.scenes import make_scene
 from tests.core.explain.explained_steps import steps_of

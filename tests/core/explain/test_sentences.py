@@ -7,7 +7,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import STAGES, Settings
-from core.explain import sentence, summary_sentence
 from core.explain.number_text import (
     FEW_STEPS,
     exact_text,
@@ -18,9 +17,11 @@ from core.explain.number_text import (
     position_text,
     steps_apart,
 )
+from core.explain.stage_texts import summary_sentence
+from core.explain.steps import sentence
 from core.records.steps import Level
 from core.records.words import counted, joined
-from core.trace import Explanation
+from core.trace.stage_trace import Explanation
 from tests.core.explain.explained_steps import all_said, explained, rare_trace, said, steps_of
 
 NUMBERS = {

@@ -7,7 +7,7 @@ import pytest
 
 from core import ClipScene, Settings, trace
 from core.antialiasing import traced_areas
-from core.explain import formula, sentence
+from core.explain.steps import formula, sentence
 from lessons.scenes import make_scene
 
 # The triangle with window corners (1, 1), (7, 1), (1, 7) on 8 x 8 pixels, by hand:

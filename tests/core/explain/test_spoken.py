@@ -5,9 +5,9 @@ import re
 import pytest
 
 import core
-from core.explain import formula
 from core.explain.latex import spoken
 from core.explain.records import Formula
+from core.explain.steps import formula
 from lessons.scenes import built_in_scene
 
 SAID = {

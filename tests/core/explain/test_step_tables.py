@@ -8,7 +8,7 @@ from core.explain.step_tables import has_tables, step_table
 from core.lines.cohen_sutherland import cohen_sutherland_listing
 from core.lines.parametric_clipping import liang_barsky_listing
 from core.records.steps import StepTable
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 from lessons.lectures.scenes import clipped
 
 WINDOW = (4.0, 3.0, 12.0, 9.0)

@@ -7,12 +7,20 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from core import STAGES, Settings
-from core.explain import variables
 from core.explain.latex import plain_text
 from core.explain.records import Variable
 from core.explain.step_values import StepValues
-from core.explain.steps import GIVEN, HIDDEN, VARIABLES, VariableText, load_subjects, shows, variables_of
-from core.trace import Explanation
+from core.explain.steps import (
+    GIVEN,
+    HIDDEN,
+    VARIABLES,
+    VariableText,
+    load_subjects,
+    shows,
+    variables,
+    variables_of,
+)
+from core.trace.stage_trace import Explanation
 from tests.core.explain.explained_steps import all_said, rare_trace
 from widgets.inspector.variables import VariablesView, value_text
 

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import Camera, ClipScene, DirectionalLight, Mesh, Picture, Scene, Settings, draw_picture, render
-from core.fast_path import Split
+from core.fast_path.draw_context import Split
 from core.methods import table
 from lessons.shapes import cube, knot, sphere, torus
 from tests.core.fast_path.numbered import assert_same, numbered, numbers

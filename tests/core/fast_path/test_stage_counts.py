@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import STAGES, ClipScene, Settings, render
-from core.fast_path import draw_picture
+from core.fast_path.draw import draw_picture
 from core.fast_path.draw_context import Coloring, Visibility
 from core.fast_path.workers import BandWorkers
 from core.fast_path.workers.sharing import COLOR, FRAGMENT

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from core import ClipScene, Scene, Settings, render, trace
 from core.lines.line_method import has_intensities
 from core.methods import table
-from core.pixel_history import PixelHistory, why
+from core.pixel_history import why
+from core.pixel_history.fragments import PixelHistory
 from core.settings import families
 from core.trace import scene_triangle_count
 from core.trace.source import TraceSource

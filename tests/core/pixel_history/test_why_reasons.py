@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings
-from core.pixel_history import PixelHistory, why
+from core.pixel_history import why
 from core.pixel_history.events import LISTED_LIMIT
+from core.pixel_history.fragments import PixelHistory
 from core.trace.source import TraceSource
 from tests.core.strategies import clip_of_window
 

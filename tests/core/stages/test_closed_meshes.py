@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import Camera, DirectionalLight, Mesh, Scene, Settings, render
-from core.fast_path import draw_picture
+from core.fast_path.draw import draw_picture
 from core.stages.closed_meshes import is_closed, is_never_negative, is_solid
 
 CAMERA = Camera(np.array([0.0, 0.0, 5.0]), np.zeros(3))

@@ -5,7 +5,8 @@ from math import isnan
 from core.depth.depth import depth_in_range, depth_test, store_depth
 from core.depth.fixed_depth import packed_depth_test, rounded_depth_test
 from core.framebuffer.blending import additive_pixel, opaque_pixel, over_pixel
-from core.trace import StageTrace, Trace
+from core.trace import Trace
+from core.trace.stage_trace import StageTrace
 from core.visibility.ray_casting import hit_is_nearer, hit_value
 from tests.core.trace.executed_rows import equal, rows_of_kind
 

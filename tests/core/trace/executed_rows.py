@@ -13,7 +13,7 @@ from types import CodeType, FrameType
 import numpy as np
 
 import core
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 from tests.covering import is_everything
 
 ROW_LIMIT = 150 if is_everything() else 60

@@ -20,7 +20,8 @@ from core.stages.vertex_light import viewpoint
 from core.textures.footprints import slopes_at, slopes_of_one_value
 from core.textures.look_up import bilinear_color, nearest_color, uses_mipmaps
 from core.textures.mipmaps import level_of_detail, mipmap_color, mipmap_levels, nearest_mipmap_color
-from core.trace import StageTrace, Trace
+from core.trace import Trace
+from core.trace.stage_trace import StageTrace
 from tests.core.trace.executed_rows import check_marks, equal, lines_that_run, rows_of_kind
 
 

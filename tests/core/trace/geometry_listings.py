@@ -10,7 +10,8 @@ from core.coverage.snapping import anchored_coefficients, edge_left_out, snap_on
 from core.culling.culling import cull_verdict
 from core.culling.object_culling import box_against_planes
 from core.methods import table
-from core.trace import StageTrace, Trace
+from core.trace import Trace
+from core.trace.stage_trace import StageTrace
 from core.transform.matrices import transform_component
 from core.transform.traced import divide_and_map
 from tests.core.trace.executed_rows import check_marks, equal, lines_that_run, rows_of_kind

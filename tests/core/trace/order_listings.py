@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 from core.visibility.bsp import cut_piece, distance_of, eye_side, plane_of, side_of
 from core.visibility.painters import far_to_near
 from tests.core.trace.executed_rows import rows_of_kind

@@ -10,7 +10,8 @@ from core.coverage.traced_edges import bounding_box, outer_box
 from core.coverage.traced_rows import PRINTED
 from core.spans.fill import order_of_pixels, place_by_size, rows_of_triangle, span_of_row
 from core.spans.lanes import tie_owners
-from core.trace import StageTrace, Trace
+from core.trace import Trace
+from core.trace.stage_trace import StageTrace
 from tests.core.trace.executed_rows import ROW_LIMIT, check_marks, equal, lines_that_run, rows_of_kind
 from tests.core.trace.geometry_listings import coefficients_of
 

@@ -14,7 +14,7 @@ from core.lines.line_method import line_traits
 from core.lines.traced import CLIP_KINDS
 from core.methods import table
 from core.records.steps import Level
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 from tests.core.trace.executed_rows import Ran, lines_that_run
 from tests.core.trace.test_line_trace import check_fold, check_values

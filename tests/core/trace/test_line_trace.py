@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import STAGES, ClipScene, Settings, Trace, render, trace
-from core.edits import original
+from core.edits.edit import original
 from core.edits.typed import Typed
-from core.explain import sentence, variables
+from core.explain.steps import sentence, variables
 from core.lanes.program import record_steps
 from core.lines.line_method import OFF, has_intensities, line_traits
 from core.lines.smooth import FILTER_TABLE
@@ -18,7 +18,7 @@ from core.lines.traced import SET_UP
 from core.lines.wireframe import interpolate_affine_along, interpolate_along
 from core.methods import table
 from core.records.steps import Level
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 from lessons.small_scenes import segment_scene
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 from tests.core.trace.executed_rows import Ran, lines_that_run

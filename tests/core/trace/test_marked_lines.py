@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from core import STAGES, ClipScene, Settings, Trace, trace
 from core.depth.whole_depths import table_scene
-from core.edits import Edit, apply_edit, original
+from core.edits.edit import Edit, apply_edit, original
 from core.explain.steps import VARIABLES, load_subjects
 from core.interpolation.barycentric import WAYS
 from core.records.depth_table import DEPTH_TESTS, DepthTable
 from core.records.listing import Listing, Operation, ShaderListing, Variables
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 from lessons.scenes import make_scene
 from tests.core.explain.explained_steps import traces
 from tests.core.listings import listings_of_the_program

@@ -6,8 +6,8 @@ import pytest
 from core import Settings, trace
 from core.records.primitives import DrawingOrder
 from core.records.steps import PIXEL_BY_PIXEL, ROW_BY_ROW
-from core.trace import StageTrace
 from core.trace.row_order import in_order
+from core.trace.stage_trace import StageTrace
 from tests.core.trace.trace_cases import SCENES
 
 ORDERS = (PIXEL_BY_PIXEL, ROW_BY_ROW)

@@ -10,7 +10,7 @@ from core.methods import table
 from core.numeric.large_arrays import ScratchBuffers
 from core.spans.fill import lanes_of_edges
 from core.spans.lanes import LEFT, MIDDLE_LEFT, MIDDLE_RIGHT, RIGHT, tie_owners
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 from tests.core.strategies import ANY_TRIANGLES, REGIONS, clip_of_window
 from tests.core.trace.trace_cases import SCENES, small_region
 

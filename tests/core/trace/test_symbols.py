@@ -9,10 +9,10 @@ from app.cli.trace_tables import arrays, csv_parts, row_record
 from app.pages.step.grid_records import buffers_of
 from app.session.moment import Cursor, Step
 from core import Settings
-from core.explain import variables
+from core.explain.steps import variables
 from core.methods import table
-from core.trace import StageTrace
 from core.trace.conditions import parse_condition, symbols_of, variable_names
+from core.trace.stage_trace import StageTrace
 from tests.core.explain.explained_steps import line_trace, rare_trace, steps_of
 
 SYMBOL = re.compile(r"([A-Za-zλ]\d?|d[xy]\d?)( \(.*\))?")

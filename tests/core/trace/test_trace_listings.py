@@ -14,8 +14,10 @@ from core.antialiasing.resolve import weighted_mean
 from core.framebuffer.display import srgb_byte
 from core.methods import table
 from core.resolved import resolve
-from core.trace import StageTrace, Trace, TraceSource
+from core.trace import Trace
 from core.trace.sample_sources import CenterSource, finer_source, sources_of_samples
+from core.trace.source import TraceSource
+from core.trace.stage_trace import StageTrace
 from core.trace.tracers import tracer_of
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.depth_listings import check_blend, check_depth

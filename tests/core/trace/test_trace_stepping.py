@@ -11,8 +11,7 @@ from core import STAGES, ClipScene, Settings, trace
 from core.methods import table
 from core.records.listing import Operation
 from core.records.steps import Level, Steps, ends_of
-from core.trace import StageTrace
-from core.trace.stage_trace import MARKS
+from core.trace.stage_trace import MARKS, StageTrace
 from tests.core.trace.trace_cases import EACH_METHOD, SCENES, name_of, settings_of, small_region
 from tests.covering import in_turn
 

@@ -16,7 +16,7 @@ from core.explain.step_tables import step_table
 from core.methods import table
 from core.pipeline import draw
 from core.pixel_history import why
-from core.trace import TraceSource
+from core.trace.source import TraceSource
 from core.visibility.ray_casting import RayPlanes
 from core.visibility.scan_line import ALONE, HALVED, PAIR, SAME, ScanLines, Spans, draw_rows, find_spans
 from lessons.scenes import make_scene

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from core import Settings, trace
-from core.edits import Edit, original
+from core.edits.edit import Edit, original
 from core.scene import AnyScene
 from core.setting_texts import settings_from_texts
 from lessons.course.quoted import CALLED, Situation, is_right

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from core import Settings, render, trace
-from core.edits import Edit, original
+from core.edits.edit import Edit, original
 from core.scene import ClipScene, Scene
 from core.shaders.presets import preset_program
 from lessons.course.catalogue import read_lesson

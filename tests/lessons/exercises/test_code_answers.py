@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from core import Settings, render
-from core.edits import edits_of, original
+from core.edits.edit import edits_of, original
 from core.methods import table
 from lessons.attempts.imports import judged_again
 from lessons.attempts.record import Attempt, attempt_of

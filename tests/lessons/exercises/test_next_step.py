@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 
 from core import Settings, trace
-from core.explain import question
+from core.explain.steps import question
 from lessons.exercises.answers.choices import ChoiceAnswer
 from lessons.exercises.answers.marked import PixelAnswer
 from lessons.exercises.question import coverage_sentence, next_draft, pixel_sentence, row_draft

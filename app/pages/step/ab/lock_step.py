@@ -7,7 +7,7 @@ import numpy as np
 from app.session.moment import Cursor
 from core.records.arrays import Flags, Integers
 from core.records.steps import Level
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 
 SIDES = 1 << 20
 """More than two for each triangle of a trace."""

@@ -82,7 +82,7 @@ class Meeting(QObject):
     @Slot()
     def go_to_first_difference(self) -> None:
         """Put both runs at the first pixel that another listing draws otherwise, or at the first step that differs."""
-        from core.edits import EDITABLE
+        from core.edits.editable import EDITABLE
 
         edits = self._comparing.b.edits
         if not edits:

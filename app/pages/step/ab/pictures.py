@@ -12,7 +12,7 @@ from app.pages.step.grid_records import LANE_MARKS, buffers_of, mask_overlays
 from app.pages.step.inspector_presenter import sentence_at
 from app.session.moment import Cursor, Step
 from core import STAGES, Trace
-from core.explain import variables
+from core.explain.steps import variables
 from core.records.arrays import Flags
 from core.records.words import joined
 from widgets.grid.compare_view import Side

@@ -25,7 +25,7 @@ from core.settings import WHOLE_NUMBERS
 from widgets.grid.compare_view import CompareView
 
 if TYPE_CHECKING:
-    from core.edits import Edit  # As in app.session.document.
+    from core.edits.edit import Edit
 
 
 class ComparePresenter(QObject):

@@ -14,7 +14,7 @@ from app.session.tracing import QUICK_SECONDS, trace_now
 from core import Trace
 
 if TYPE_CHECKING:
-    from core.edits import Edit
+    from core.edits.edit import Edit
 from app.pages.step.ab.side_b import SideB
 
 QUICK_TRIAL_SECONDS = 0.2

@@ -16,7 +16,7 @@ from core.shaders.presets import preset_of
 from widgets.basics.settings_panel import Setting, SettingChoice
 
 if TYPE_CHECKING:
-    from core.edits import Edit
+    from core.edits.edit import Edit
 
 
 # What B is beside A: the same run with other settings, a listing as printed or edited, or a run with a

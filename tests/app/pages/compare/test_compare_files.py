@@ -16,7 +16,7 @@ from app.pages.compare.charts import TIME
 from app.pages.compare.page import ComparePage
 from app.pages.compare.study_files import load_study, study_json
 from app.window.main_window import MainWindow
-from core.study import measure
+from core.study.speed_accuracy import measure
 from tests.app.pages.compare.compare_pages import WRONG, compare_page, hand_made, measured
 
 pytestmark = pytest.mark.shared_window

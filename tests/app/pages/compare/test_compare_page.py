@@ -14,8 +14,8 @@ from app.pages.compare.charts import TIME
 from app.pages.compare.jobs import measured as measured_on
 from app.pages.compare.page import ComparePage
 from app.window.main_window import MainWindow
-from core.study import measure
 from core.study.families import study_families
+from core.study.speed_accuracy import measure
 from tests.app.pages.compare.compare_pages import WRONG, compare_page, hand_made, measured
 from widgets.basics.theme import LIGHT, current_theme
 

@@ -6,7 +6,7 @@ import pytest
 
 from app.pages.compare.study_files import load_study
 from app.pages.stability.atlas_files import load_atlas
-from core.study import study_families
+from core.study.families import study_families
 from tests.app.cli.cli_runs import refused, run_program
 
 QUICK = ("--rounds", 1, "--no-growth")

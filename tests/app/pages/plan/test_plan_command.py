@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from app.files.open_any import open_any
-from core.study import Tolerance, plan
+from core.study.planner.planning import plan
+from core.study.planner.records import Tolerance
 from core.study.planner.trials import difference, shown
 from tests.app.cli.cli_runs import refused, run_program
 from tests.covering import in_turn, is_everything

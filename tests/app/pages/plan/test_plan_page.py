@@ -18,11 +18,14 @@ from app.pages.plan.page import PlanPage
 from app.pages.plan.plans import details, headline, rows_of
 from app.window.main_window import MainWindow
 from core.explain.stage_texts import family_title
-from core.study import PlanReport, Point, Tolerance, measure, measure_plan, plan
 from core.study.family import Candidate, settings_of
 from core.study.planner import planning
-from core.study.planner.planning import STAGES
+from core.study.planner.measuring import measure_plan
+from core.study.planner.planning import STAGES, plan
+from core.study.planner.records import PlanReport, Tolerance
 from core.study.planner.trials import Costs
+from core.study.record import Point
+from core.study.speed_accuracy import measure
 from core.study.whole_picture import PIPELINE
 from lessons.scenes import built_in_scene
 from widgets.experiments.plan import Verdict

@@ -6,7 +6,8 @@ import pytest
 
 from app.cli.plan import report_text
 from app.pages.plan.plans import advice_html, findings_html, rows_of
-from core.study.planner import Tolerance, plan_and_check
+from core.study.planner.measuring import plan_and_check
+from core.study.planner.records import Tolerance
 from lessons.scenes import make_scene
 
 

@@ -19,7 +19,7 @@ from app.pages.step.ab.shown_runs import titles
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import Settings
-from core.edits import Edit, original
+from core.edits.edit import Edit, original
 from core.records.steps import Level
 from core.trace.stage_trace import StageTrace
 from lessons.scenes import make_scene

@@ -10,7 +10,7 @@ import pytest
 from app.pages.step.inspector_presenter import sentence_at
 from app.session.moment import Cursor, Step
 from core import Settings, trace
-from core.explain import row_sentence
+from core.explain.steps import row_sentence
 from core.records.steps import Level
 from core.scene import AnyScene
 from lessons.lectures.catalogue import printed_listing

@@ -11,8 +11,8 @@ from pytestqt.qtbot import QtBot
 from app.pages.step.pixel_origins import variable_of
 from app.session.document import open_document
 from app.window.main_window import MainWindow
-from core.explain import formula
 from core.explain.latex import plain_text, split_cells
+from core.explain.steps import formula
 from lessons.scenes import make_scene
 from widgets.inspector.formula_layout import FormulaNumber
 

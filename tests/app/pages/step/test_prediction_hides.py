@@ -10,9 +10,9 @@ from PySide6.QtWidgets import QApplication
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import ClipScene, Settings
-from core.explain import question
+from core.explain.steps import question
 from core.records.steps import Level
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 from lessons.scenes import make_scene
 from widgets.grid.layers import CellMark, MaskOverlay
 

@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QApplication
 
 from app.window.main_window import MainWindow
 from core import STAGES
-from core.explain import question
+from core.explain.steps import question
 
 pytestmark = pytest.mark.shared_window
 

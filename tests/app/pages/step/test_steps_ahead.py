@@ -9,7 +9,7 @@ from app.pages.step.inspector_presenter import QUIET_MS, STEPS_AHEAD, StepsAhead
 from app.session.document import open_document
 from app.session.moment import Cursor, Step
 from app.session.session import Session
-from core.explain import formula
+from core.explain.steps import formula
 from core.records.steps import Level
 from core.trace.tracers import trace_stage
 from lessons.scenes import built_in_scene

@@ -9,8 +9,7 @@ from collections.abc import Sequence
 from itertools import combinations
 from math import nan
 
-from core.study import Point
-from core.study.record import CLOSE, is_faster
+from core.study.record import CLOSE, Point, is_faster
 
 
 def kendall_tau(first: Sequence[Point], second: Sequence[Point]) -> float:

@@ -6,7 +6,8 @@ import numpy as np
 
 from app.pages.compare.charts import growth_of, numbers_of
 from app.pages.words import best_sentences, with_unit
-from core.study import Point, Study, best_values, study_family
+from core.study.families import study_family
+from core.study.record import Point, Study, best_values
 from tests.core.study.accuracy.untimed_runs import run
 from widgets.experiments.series import ChartPicture
 

@@ -2,7 +2,8 @@
 
 import pytest
 
-from core.study import measure, opening, pictures, study_family
+from core.study.families import study_family
+from core.study.speed_accuracy import measure, opening, pictures
 
 WORKS = [work.name for work in study_family("line_clipping").works]
 

@@ -5,8 +5,8 @@ import pytest
 
 from core.methods import table
 from core.settings import no_effect
-from core.study import study_families
 from core.study.bands import amdahl_limit
+from core.study.families import study_families
 from core.study.whole_picture import PICTURE
 from core.study.workloads import window_mesh
 from tests.core.study.accuracy.untimed_runs import run

@@ -9,20 +9,12 @@ import pytest
 from core import Settings
 from core.methods import table
 from core.settings import families
-from core.study import (
-    Point,
-    Study,
-    StudyCancelledError,
-    measure,
-    opening,
-    pareto_front,
-    pictures,
-    speed_accuracy,
-    study_families,
-    study_family,
-)
+from core.study import speed_accuracy
+from core.study.families import study_families, study_family
 from core.study.family import settings_of
 from core.study.frame_task import check_pixel_tests
+from core.study.record import Point, Study, StudyCancelledError, pareto_front
+from core.study.speed_accuracy import measure, opening, pictures
 from core.study.whole_picture import SAMPLED_COLOR, PictureTask, same_look, scaled, standard_scene
 from lessons.scenes import make_scene
 

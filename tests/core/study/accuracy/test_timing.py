@@ -7,9 +7,20 @@ import numpy as np
 import pytest
 
 from core.settings import Settings
-from core.study import Point, Study, measure, pareto_front, speed_accuracy
+from core.study import speed_accuracy
 from core.study.family import Assignment, Candidate, StudyFamily, Task
-from core.study.record import ErrorMeasure, Judgement, WorkKind, judged, median_interval, ranks
+from core.study.record import (
+    ErrorMeasure,
+    Judgement,
+    Point,
+    Study,
+    WorkKind,
+    judged,
+    median_interval,
+    pareto_front,
+    ranks,
+)
+from core.study.speed_accuracy import measure
 from tests.core.study.accuracy.order_agreement import kendall_tau
 
 NAMES = ("last-drawn", "painters", "z-buffer", "ray-casting")

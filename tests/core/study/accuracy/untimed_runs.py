@@ -3,7 +3,7 @@
 from collections.abc import Container, Mapping
 from typing import NamedTuple
 
-from core.study import study_family
+from core.study.families import study_family
 from core.study.family import Assignment, chosen_dials, settings_of
 
 

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from core.methods import table
-from core.study import Plan, Tolerance, plan, plan_and_check
-from core.study.planner.planning import STAGES
+from core.study.planner.measuring import plan_and_check
+from core.study.planner.planning import STAGES, plan
+from core.study.planner.records import Plan, Tolerance
 from core.study.planner.trials import Costs, difference, shown
 from tests.core.study.planner.corpus import KINDS, corpus_scene
 

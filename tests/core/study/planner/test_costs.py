@@ -5,8 +5,9 @@ from dataclasses import replace
 import pytest
 
 from core.settings import Settings, with_method
-from core.study import Tolerance, plan, reference_settings
-from core.study.planner.planning import STAGES
+from core.study.planner.planning import STAGES, plan
+from core.study.planner.records import Tolerance
+from core.study.planner.reference_settings import reference_settings
 from core.study.planner.trials import TIMED_PIXELS, Costs, TriedCosts
 from core.study.workloads import sphere_scene
 from tests.core.study.planner.needy_scenes import highlight

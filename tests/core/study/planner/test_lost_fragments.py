@@ -9,10 +9,10 @@ from core import STAGES, ClipScene, Settings, render
 from core.methods import table
 from core.records.frame import StageCount
 from core.stages.vertices import process_geometry
-from core.study import Plan, plan
 from core.study.planner import trials
 from core.study.planner import trials as lost_fragments
-from core.study.planner.records import Decision
+from core.study.planner.planning import plan
+from core.study.planner.records import Decision, Plan
 from core.study.planner.trials import Costs, bands, difference, far_triangles, loses_fragments, shown
 from tests.core.strategies import clip_of_window
 

@@ -7,7 +7,10 @@ import pytest
 
 import tests.core.study.planner.needy_scenes as scenes
 from core.scene import AnyScene
-from core.study import Tolerance, measure_plan, plan, reference_settings
+from core.study.planner.measuring import measure_plan
+from core.study.planner.planning import plan
+from core.study.planner.records import Tolerance
+from core.study.planner.reference_settings import reference_settings
 from core.study.planner.trials import Costs, difference, shown
 
 CHEAP = {

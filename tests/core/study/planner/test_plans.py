@@ -12,11 +12,11 @@ from core.scene import ClipScene, Texture
 from core.settings import Settings
 from core.stages.closed_meshes import is_closed
 from core.stages.object_tree import object_tree
-from core.study import Plan, Tolerance, look_at, plan, reference_settings
 from core.study.planner.findings import sagitta, tessellations
 from core.study.planner.measuring import check_plan, measure_plan
-from core.study.planner.planning import CHEAPER
-from core.study.planner.records import PHRASES, figure
+from core.study.planner.planning import CHEAPER, look_at, plan
+from core.study.planner.records import PHRASES, Plan, Tolerance, figure
+from core.study.planner.reference_settings import reference_settings
 from core.study.planner.trials import Costs, difference, shown
 from core.study.workloads import sphere_mesh, sphere_scene, textured_quad
 from core.transform.vertex_stage import transform_vertices

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from core.scene import ClipScene
-from core.study import Tolerance, plan, reference_settings
+from core.study.planner.planning import plan
+from core.study.planner.records import Tolerance
+from core.study.planner.reference_settings import reference_settings
 from core.study.planner.trials import PIXELS, Costs, Trials, bands, difference, shown
 from core.study.workloads import sphere_scene
 

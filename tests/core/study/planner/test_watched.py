@@ -2,8 +2,9 @@
 
 import pytest
 
-from core.study import Tolerance, check_plan, measure_plan, plan
-from core.study.planner.measuring import alone_settings
+from core.study.planner.measuring import alone_settings, check_plan, measure_plan
+from core.study.planner.planning import plan
+from core.study.planner.records import Tolerance
 from core.study.planner.trials import Costs
 from core.study.workloads import sphere_scene
 from lessons.scenes import built_in_scene

@@ -7,7 +7,8 @@ import pytest
 
 from app.pages.step.ab.pictures import DIFFERING, divergence_text
 from core import Settings, trace
-from core.edits import EDITABLE, Edit, apply_edit, original
+from core.edits.edit import Edit, apply_edit, original
+from core.edits.editable import EDITABLE
 from core.settings import with_method
 from core.stages.declared import DECLARED
 from core.study.divergence import diverge

@@ -15,7 +15,7 @@ from app.session.moment import Cursor
 from core import STAGES
 from core.records.listing import Operation
 from core.records.steps import Level, Steps, ends_of
-from core.trace import StageTrace
+from core.trace.stage_trace import StageTrace
 from lessons.scenes import make_scene
 
 ROWS = st.lists(st.tuples(st.integers(0, 2), st.integers(-1, 3), st.sampled_from("st")), max_size=12)
