@@ -274,10 +274,6 @@ class Menus(QObject):
         """Show whether what an action switches is on."""
         self.actions_by_name[name].setChecked(is_checked)
 
-    def show_enabled(self, name: str, is_enabled: bool) -> None:
-        """Show whether an action can be done now."""
-        self.actions_by_name[name].setEnabled(is_enabled)
-
     def show_kind(self, corner_count: int) -> None:
         """Name triangles, segments or points: primitives of so many corners."""
         one = nouns(corner_count).one
@@ -295,7 +291,7 @@ class Menus(QObject):
         """Offer the actions of a page and those of all pages; the others' keys are free for what is on the page."""
         for entry in self._table:
             if entry.page:
-                self.show_enabled(entry.name, entry.page == name)
+                self.actions_by_name[entry.name].setEnabled(entry.page == name)
         for title, menu in self._menus.items():
             pages = {entry.page for entry in self._table if entry.menu == title}
             menu.menuAction().setVisible(bool(pages & {"", name}))

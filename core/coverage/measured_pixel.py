@@ -92,7 +92,7 @@ def edge_steps(
     pixel : (column, row)
     """
     ends = NEXT[edge], LAST[edge]
-    held = [_held_corner(corners, numbers, number) for number in ends]
+    held = [[Fraction(float(value)) for value in numbers.shown_ends(corners)[0, number]] for number in ends]
     given = dict(zip(CORNERS, [v for k in ends for v in exact_corners[k]], strict=True))
     # Snapped corners are (x/w, y/w, 1): so are the given ones then, scaled by a positive w.
     if numbers.corner_kind == "snapped":
@@ -109,11 +109,6 @@ def edge_steps(
         known[name] = rounded(numbers, name, exact)
         steps.append(EdgeStep(name, float(known[name]), float(exact), decide(known, turn)))
     return tuple(steps)
-
-
-def _held_corner(corners: CornerPositions, numbers: NumberFormat, corner: int) -> list[Fraction]:
-    """Return x, y, w of a corner as the format has it, in pixels."""
-    return [Fraction(float(value)) for value in numbers.shown_ends(corners)[0, corner]]
 
 
 def decide(known: dict[str, Fraction], turn: int) -> bool:

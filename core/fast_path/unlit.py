@@ -174,11 +174,11 @@ class TextureColors:
             of_row = (a[triangle] * x + (b[triangle] * y + c[triangle])).astype(np.float32)
             np.add(steps.spread(ramp), of_row[:, None], out=values)
         with np.errstate(divide="ignore", invalid="ignore"):
-            is_near = _is_positive(inverse_w)
+            is_near = bool((_ends(inverse_w) > 0).all())
             np.divide(np.float32(1), inverse_w, out=inverse_w)
             for position in (u, v):
                 position *= inverse_w
-                is_near = is_near and _largest_at_ends(position) <= FARTHEST
+                is_near = is_near and float(np.abs(_ends(position)).max()) <= FARTHEST
         pixels: Words = context.scratch("texture_pixels", *shape, dtype=np.uint32)
         u, v, flat = u.reshape(-1), v.reshape(-1), pixels.reshape(-1)
         if is_near:
@@ -202,16 +202,6 @@ class TextureColors:
                         image[band.rows, band.columns], self.block(context, triangle, band), where=is_seen
                     )
         return int(np.count_nonzero(number))
-
-
-def _is_positive(inverse_w: Singles) -> bool:
-    """Return whether 1 / w (R, C), linear along every row, is positive everywhere."""
-    return bool((_ends(inverse_w) > 0).all())
-
-
-def _largest_at_ends(position: Singles) -> float:
-    """Return the largest size of positions (R, C), which grow or fall all along a row where w is positive."""
-    return float(np.abs(_ends(position)).max())
 
 
 def _ends(values: Singles) -> Singles:

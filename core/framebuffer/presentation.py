@@ -125,11 +125,6 @@ def torn(pictures: Integers) -> Flags:
     return np.asarray((pictures != pictures[:, :1]).any(axis=1))
 
 
-def refreshes_to_step(drawing_time: int, refresh_time: int) -> int:
-    """Return how many refreshes show two pictures drawn and swapped at the blank, `MOST_REFRESHES` at most."""
-    return min(2 * -(-drawing_time // refresh_time) + 1, MOST_REFRESHES)
-
-
 @dataclass(frozen=True, eq=False)
 class Events:
     """What happens, in order of time, (E,) each."""
@@ -151,7 +146,7 @@ def events(
     buffering: Buffering, flush: Flush, height: int, drawing_time: int, refresh_time: int
 ) -> tuple[Events, Schedule]:
     """Return what is stepped, and the times of the pictures in it."""
-    count = refreshes_to_step(drawing_time, refresh_time)
+    count = min(2 * -(-drawing_time // refresh_time) + 1, MOST_REFRESHES)
     end = count * refresh_time
     times = schedule(buffering, drawing_time, refresh_time, end)
     since = available(buffering, flush, times, height, drawing_time)

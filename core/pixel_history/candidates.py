@@ -54,11 +54,6 @@ def whole_geometry(source: TraceSource) -> Geometry:
     return found[1]
 
 
-def take_outlines(outlines: Outlines, index: Integers) -> Outlines:
-    """Return the segments (M,) of a wireframe."""
-    return Outlines(*(values[index] for values in vars(outlines).values()))
-
-
 @dataclass(frozen=True, eq=False)
 class EdgeTests:
     """Q primitives at one pixel centre: the numbers of the inside test."""
@@ -195,7 +190,7 @@ class PixelCandidates:
         outlines = self.geometry.outlines
         assert outlines is not None
         near = np.flatnonzero(np.isin(outlines.primitive, self.primitive))
-        taken = take_outlines(outlines, near)
+        taken = Outlines(*(values[near] for values in vars(outlines).values()))
         found, steps = join_batches(list(draw_outlines(taken, self.raster, self.settings.line)))
         segment = near[found.segment]
         return replace(found, primitive=outlines.primitive[segment], segment=segment), steps

@@ -47,7 +47,7 @@ def pixel_verdict(events: Sequence[PixelEvent], counts: Mapping[str, int], blend
     fragments = [event for event in events if event.kind == "fragment"]
     passed = [event for event in fragments if not event.is_rejected]
     others = [event for event in events if event.kind in ("missed", "culled", "clipped")]
-    lost = [event for event in others if _would_cover(event)]
+    lost = [event for event in others if event.reason.values.get("would_cover")]
     values: dict[str, Any] = {
         "fragment_count": len(fragments),
         "passed_count": len(passed),
@@ -99,10 +99,6 @@ def triangle_verdict(events: Sequence[PixelEvent], triangle: int) -> Link:
     else:
         key = "triangle-seen" if seen == triangle else "triangle-blended"
     return Link("verdict", key, values)
-
-
-def _would_cover(event: PixelEvent) -> bool:
-    return bool(event.reason.values.get("would_cover"))
 
 
 # The events of a pixel in drawing order: initial value, clear, and every candidate triangle.

@@ -63,7 +63,7 @@ def trace_vertex_shader(source: TraceSource) -> StageTrace:
         order = np.lexsort((np.arange(len(corner)), corner))
     columns = {name: _after_nothing(count, values)[order] for name, values in divided.columns.items()}
     for name, values in _statement_columns(rows, owner[rows.lane], owner).items():
-        columns[name] = _before_nothing(values, 2 * len(corners))[order]
+        columns[name] = np.concatenate([values, _missing(values, 2 * len(corners))])[order]
     columns["vertex"], columns["corner"] = (
         np.concatenate([divided.columns[name][::2][rows.lane], divided.columns[name]])[order]
         for name in ("vertex", "corner")
@@ -214,11 +214,6 @@ def _missing(values: Any, count: int) -> Any:
 def _after_nothing(count: int, values: Any) -> Any:
     """Return a column that has nothing in its first ``count`` rows."""
     return np.concatenate([_missing(values, count), values])
-
-
-def _before_nothing(values: Any, count: int) -> Any:
-    """Return a column that has nothing in its last ``count`` rows."""
-    return np.concatenate([values, _missing(values, count)])
 
 
 def _buffers(

@@ -25,7 +25,6 @@ from core.fast_path.draw import draw_picture
 from core.fast_path.draw_context import Picture
 from core.fast_path.workers.sharing import even_cuts, rows_of
 from core.records.arrays import cached_property
-from core.records.frame import StageCount
 from core.scene import AnyScene
 from core.settings import Settings
 from core.stages.declared import GEOMETRY_STAGES
@@ -52,11 +51,6 @@ class Bands:
 def amdahl_limit(shared: float, divided: float, processes: int) -> float:
     """Return the least seconds of so many processes: what each of them does, and a part of what is divided."""
     return shared + divided / processes
-
-
-def shared_seconds(statistics: dict[str, StageCount]) -> float:
-    """Return the seconds of the stages that every process runs for all triangles."""
-    return sum(statistics[stage].seconds for stage in GEOMETRY_STAGES)
 
 
 class BandsTask(Task):
@@ -105,7 +99,7 @@ class BandsTask(Task):
     def judge(self, settings: Settings, made: Bands) -> Judgement:
         """Compare the pixels with those of the whole picture, and the time with the limit."""
         whole, seconds = self._whole(settings)
-        shared = min(shared_seconds(whole.statistics), seconds)
+        shared = min(sum(whole.statistics[stage].seconds for stage in GEOMETRY_STAGES), seconds)
         limit = amdahl_limit(shared, seconds - shared, self.processes)
         pixels = np.concatenate([picture.pixels for picture in made.pictures])
         wrong = (pixels != whole.pixels).any(axis=2)

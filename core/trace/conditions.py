@@ -250,7 +250,7 @@ def evaluate(node: ast.expr, names: Names) -> Any:
         case ast.Name(id=name):
             return _single(name, names.value(name))
         case ast.Constant(value=value):
-            return _constant(value)
+            return np.asarray(value) if isinstance(value, bool | str) else np.asarray(value, np.float64)
         case ast.Subscript(value=ast.Name(id=name), slice=ast.Constant(value=int(index))):
             return _element(name, names.value(name), index)
         case ast.UnaryOp(op=ast.Not(), operand=operand):
@@ -284,11 +284,6 @@ def _compare(first: Any, op: ast.cmpop, second: Any) -> Any:
     if any(is_text) and not (all(is_text) and isinstance(op, ast.Eq | ast.NotEq)):
         raise ValueError("a text can only be equal (==) or not equal (!=) to another text")
     return _COMPARISONS[type(op)](first, second)
-
-
-def _constant(value: object) -> Any:
-    """Return a constant as arrays take it; a number as float64, so that no integer grows without end."""
-    return np.asarray(value) if isinstance(value, bool | str) else np.asarray(value, np.float64)
 
 
 def _numbers(node: ast.expr, names: Names) -> Any:

@@ -80,7 +80,7 @@ def with_sort(found: StageTrace, source: TraceSource) -> StageTrace:
 def with_tree(found: StageTrace, source: TraceSource) -> StageTrace:
     """Return the trace of the depth test with the rows of a BSP tree before it."""
     tree = build_tree(corners_of(source))
-    rows = tree_columns(tree, source.triangle)
+    rows = _joined(list(_tree_rows(tree, source.triangle)), _TREE_COLUMNS)
     return _with_order(found, source, TREE_OPERATIONS, rows, tree_listings(), {"tree": tree})
 
 
@@ -216,14 +216,6 @@ def corners_of(source: TraceSource) -> Floats:
 
 
 # The tree: its nodes with all tests, then the walk.
-
-
-def tree_columns(tree: BspTree, chosen: int | None = None) -> Columns:
-    """Return the rows of a tree: every node with its plane and what is tested, then the nodes as they are drawn.
-
-    With ``chosen``, only those about one triangle.
-    """
-    return _joined(list(_tree_rows(tree, chosen)), _TREE_COLUMNS)
 
 
 _TREE_COLUMNS: dict[str, Any] = {

@@ -120,14 +120,9 @@ def series_color(number: int, theme: Theme | None = None) -> str:
     return colors[number % len(colors)]
 
 
-def series_shape(number: int) -> str:
-    """Return pyqtgraph's name of the shape of a series."""
-    return SHAPES[number % len(SHAPES)]
-
-
 def paint_mark(painter: QPainter, at: QPointF, number: int, size: float) -> None:
     """Draw the mark of a series; shapes that are thin are drawn larger than others, or they would look small."""
-    shape = series_shape(number)
+    shape = SHAPES[number % len(SHAPES)]
     size *= 1.35 if shape in THIN_SHAPES else 1.0
     painter.save()
     painter.translate(at)

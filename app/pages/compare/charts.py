@@ -7,7 +7,7 @@ import numpy as np
 
 from core.explain.stage_texts import family_title
 from core.methods import table
-from core.study.record import Axis, ErrorMeasure, Point, Study, best_values, pareto_front
+from core.study.record import ErrorMeasure, Point, Study, best_values, pareto_front
 from core.study.speed_accuracy import cost_dial
 from widgets.experiments.series import MOST_NAMED, ChartAxis, ChartEmpty, ChartPicture, ChartSeries
 
@@ -38,11 +38,6 @@ def bar_of(point: Point) -> tuple[float, float]:
     return point.least, point.interval[1]
 
 
-def measure_of(study: Study, name: str) -> ErrorMeasure:
-    """Return an error measure by its name, or the first."""
-    return next((measure for measure in study.measures if measure.name == name), study.measures[0])
-
-
 def numbers_of(points: Sequence[Point]) -> dict[str, int]:
     """Return the number of every method, which is its colour and shape in all charts."""
     return {point.method: number for number, point in enumerate(points)}
@@ -70,7 +65,7 @@ def scatter_of(
     ringed : tuple of str
         Methods that stand out: what a plan chose.
     """
-    measure = measure_of(study, measure_name)
+    measure = next((measure for measure in study.measures if measure.name == measure_name), study.measures[0])
     series = tuple(
         ChartSeries(
             point.method,
@@ -127,13 +122,8 @@ def growth_of(study: Study, cost: str, numbers: Mapping[str, int]) -> ChartPictu
     )
     if not series:
         return ChartEmpty("Every method refused this work. The figures on the left give the reasons.")
-    axes = dial_axis(dial), cost_axis(cost, study.work.unit)
+    axes = ChartAxis(dial.title, dial.unit), cost_axis(cost, study.work.unit)
     return ChartPicture(*axes, series, is_named=len(series) <= MOST_NAMED)
-
-
-def dial_axis(dial: Axis) -> ChartAxis:
-    """Return the axis of a dial."""
-    return ChartAxis(dial.title, dial.unit)
 
 
 def _growing(

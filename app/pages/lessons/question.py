@@ -402,13 +402,9 @@ class LessonAttempts(QObject):
     @Slot()
     def _go_on(self) -> None:
         if self._waiting:
-            self._job.call(_adding(self._waiting.pop(0)))
+            self._job.call(partial(attempt_file().add, self._waiting.pop(0)))
 
     @Slot(object)
     def _fail(self, error: Exception) -> None:
         self.failed.emit(f"This is not kept for the next start: {error}.")
         self._go_on()
-
-
-def _adding(attempt: Attempt) -> Callable[[], str]:
-    return partial(attempt_file().add, attempt)

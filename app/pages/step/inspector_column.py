@@ -169,7 +169,7 @@ class InspectorColumn(QTabWidget):
     def _make_room(self, least: int) -> None:
         """Give sentence and formula the height that they want, but the formula no less than ``least``."""
         before = self._tallest, self._longest
-        self._tallest = max(self._wanted_height(), least)
+        self._tallest = max(self.formula.heightForWidth(max(self._width, 1)), least)
         self._longest = max(self.sentence.heightForWidth(max(self._width, 1)), self._longest)
         if (self._tallest, self._longest) != before:
             self.fit()
@@ -178,9 +178,6 @@ class InspectorColumn(QTabWidget):
     @Slot()
     def _make_room_for_typeset(self) -> None:
         self._make_room(self._tallest)
-
-    def _wanted_height(self) -> int:
-        return self.formula.heightForWidth(max(self._width, 1))
 
     @Slot()
     def _forget_heights(self) -> None:

@@ -11,7 +11,7 @@ from core.explain.number_text import parse_number
 from core.explain.steps import variables
 from core.framebuffer.display import encode_linear, encode_srgb
 from core.pixel_history import why
-from core.pixel_history.fragments import PixelEvent, PixelHistory, PixelPieces, PixelState, pixel_pieces
+from core.pixel_history.fragments import PixelHistory, PixelPieces, PixelState, pixel_pieces
 from core.pixel_history.told import count_sentences, event_reason, event_title, verdict_sentence
 from core.pixel_history.told_coverage import (
     of_sample,
@@ -166,7 +166,7 @@ def _lines(history: PixelHistory, drawn: Nouns) -> Lines:
         entry = HistoryEntry(
             event_title(event, drawn),
             _value(event.before),
-            None if _is_unshaded(event) else _value(event.out),
+            None if any(link.key == "not-shaded" for link in event.chain) else _value(event.out),
             _value(event.after),
             mark,
             event_reason(event, drawn),
@@ -184,11 +184,6 @@ def _story(
 ) -> tuple[PixelStory, list[int | None]]:
     entries = tuple(entry for entry, _ in lines)
     return PixelStory(column, row, verdict, mark, entries), [triangle for _, triangle in lines]
-
-
-def _is_unshaded(event: PixelEvent) -> bool:
-    """Return whether a fragment has no colour, as an early depth test has kept it from being shaded."""
-    return any(link.key == "not-shaded" for link in event.chain)
 
 
 def _value(state: PixelState | None) -> PixelValue | None:

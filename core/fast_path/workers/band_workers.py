@@ -236,7 +236,7 @@ class BandWorkers:
         reason = self._why_alone() or _why_not_divided(order) or self._why_not_worth(order.shape[0])
         if not reason and not self._has_workers(0.0):
             reason = self._failure or "the worker processes are being started"
-        reason = reason or self._why_not_now()
+        reason = reason or ("" if self._always or self._pace.may_share else self._pace.reason)
         is_cold = not all(worker.picture_count for worker in self._workers)
         start, is_tried = perf_counter(), not reason
         if is_tried:
@@ -282,10 +282,6 @@ class BandWorkers:
         if self._load is None:
             return "the first picture has not been timed"
         return "" if self._load.is_worth(self.processes) else "a picture like the last one is not worth it"
-
-    def _why_not_now(self) -> str:
-        """Return why times speak against sharing, else an empty text."""
-        return "" if self._always or self._pace.may_share else self._pace.reason
 
     def _has_workers(self, seconds: float) -> bool:
         """Start the workers where there are none; return whether they are ready after at most ``seconds``."""

@@ -273,12 +273,9 @@ class Entry(Cell):
         return all(
             mine == its
             if isinstance(mine, str) or mine is None or its is None
-            else self._are_close(mine, its)
+            else are_close(mine, its, self.tolerance)
             for mine, its in zip(_parts(one), _parts(other), strict=True)
         )
-
-    def _are_close(self, one: Number, other: Number) -> bool:
-        return are_close(one, other, self.tolerance)
 
     def is_digit_off(self, one: Value, other: Value) -> bool:
         """Return whether two values differ by one digit, or the sign, of a number."""
