@@ -59,21 +59,16 @@ WAYS = (
 )
 """Four ways, in words, and in columns and rows (y up)."""
 ACTIONS: tuple[Action, ...] = (
-    *rows_of("step", STEPPING, "Step", whole_window)(
-        Row("step_forward", "Right", "Step forward", lambda w: w.stepping.step(1)),
-        Row("step_back", "Left", "Step back", lambda w: w.stepping.step(-1)),
-        Row(
-            "larger_forward",
-            "Shift+Right F10",
-            "Larger step forward (over)",
-            lambda w: w.stepping.step_larger(1),
-        ),
-        Row("larger_back", "Shift+Left Ctrl+F10", "Larger step back", lambda w: w.stepping.step_larger(-1)),
-        Row("level_in", "Down F11", "Smaller steps (into)", lambda w: w.stepping.change_level(1)),
-        Row("level_out", "Up Shift+F11", "Larger steps (out)", lambda w: w.stepping.change_level(-1)),
-        Row("go_first", "Home", "Go to the start of the stage", lambda w: w.stepping.go_to_end(-1)),
-        Row("go_last", "End", "Go to the end of the stage", lambda w: w.stepping.go_to_end(1)),
-        Row("toggle_play", "Space", "Play or pause", lambda w: w.stepping.toggle_play()),
+    *rows_of("step", STEPPING, "Step", lambda w: w.stepping)(
+        Row("step_forward", "Right", "Step forward", lambda p: p.step(1)),
+        Row("step_back", "Left", "Step back", lambda p: p.step(-1)),
+        Row("larger_forward", "Shift+Right F10", "Larger step forward (over)", lambda p: p.step_larger(1)),
+        Row("larger_back", "Shift+Left Ctrl+F10", "Larger step back", lambda p: p.step_larger(-1)),
+        Row("level_in", "Down F11", "Smaller steps (into)", lambda p: p.change_level(1)),
+        Row("level_out", "Up Shift+F11", "Larger steps (out)", lambda p: p.change_level(-1)),
+        Row("go_first", "Home", "Go to the start of the stage", lambda p: p.go_to_end(-1)),
+        Row("go_last", "End", "Go to the end of the stage", lambda p: p.go_to_end(1)),
+        Row("toggle_play", "Space", "Play or pause", lambda p: p.toggle_play()),
     ),
     *rows_of("step", STEPPING, "", lambda w: w.page.timeline)(
         Row("faster", "+ =", "Play faster", lambda p: p.change_speed(1)),
@@ -83,32 +78,28 @@ ACTIONS: tuple[Action, ...] = (
         Row("visited_back", "Ctrl+[", "Back to the step before the jump", lambda p: p.go_back()),
         Row("visited_forward", "Ctrl+]", "Forward again", lambda p: p.go_forward(), ends_group=True),
     ),
-    *rows_of("step", RUNNING, "Step", whole_window)(
-        Row("next_at_pin", "J", "Next step at the pinned pixel", lambda w: w.stepping.run_to_pin(1)),
-        Row("previous_at_pin", "K", "Previous step at the pinned pixel", lambda w: w.stepping.run_to_pin(-1)),
-        Row("next_event", "N", "Next event of the chosen kind", lambda w: w.stepping.run_to_event(1)),
-        Row(
-            "previous_event",
-            "Shift+N",
-            "Previous event of the chosen kind",
-            lambda w: w.stepping.run_to_event(-1),
-        ),
-        Row("run_forward", "F5", "Run to the next breakpoint", lambda w: w.stepping.run_to_breakpoint(1)),
-        Row(
-            "run_back",
-            "Ctrl+F5",
-            "Run back to the last breakpoint",
-            lambda w: w.stepping.run_to_breakpoint(-1),
-        ),
+    *rows_of("step", RUNNING, "Step", lambda w: w.stepping)(
+        Row("next_at_pin", "J", "Next step at the pinned pixel", lambda p: p.run_to_pin(1)),
+        Row("previous_at_pin", "K", "Previous step at the pinned pixel", lambda p: p.run_to_pin(-1)),
+        Row("next_event", "N", "Next event of the chosen kind", lambda p: p.run_to_event(1)),
+        Row("previous_event", "Shift+N", "Previous event of the chosen kind", lambda p: p.run_to_event(-1)),
+        Row("run_forward", "F5", "Run to the next breakpoint", lambda p: p.run_to_breakpoint(1)),
+        Row("run_back", "Ctrl+F5", "Run back to the last breakpoint", lambda p: p.run_to_breakpoint(-1)),
         Row(
             "toggle_breakpoint",
             "F9 B",
             "Breakpoint at the pinned pixel",
-            lambda w: w.stepping.toggle_pixel_breakpoint(),
+            lambda p: p.toggle_pixel_breakpoint(),
         ),
-        Row("edit_condition", "Ctrl+F9", "Breakpoint on a condition…", lambda w: w.overlays.ask_condition()),
-        Row("toggle_bookmark", "Ctrl+B", "Bookmark this step", lambda w: w.stepping.bookmarks.toggle()),
-        Row("note_bookmark", "Ctrl+Shift+B", "Bookmark with a note…", lambda w: w.overlays.ask_note()),
+    ),
+    *rows_of("step", RUNNING, "Step", lambda w: w.overlays)(
+        Row("edit_condition", "Ctrl+F9", "Breakpoint on a condition…", lambda p: p.ask_condition()),
+    ),
+    *rows_of("step", RUNNING, "Step", lambda w: w.stepping)(
+        Row("toggle_bookmark", "Ctrl+B", "Bookmark this step", lambda p: p.bookmarks.toggle()),
+    ),
+    *rows_of("step", RUNNING, "Step", lambda w: w.overlays)(
+        Row("note_bookmark", "Ctrl+Shift+B", "Bookmark with a note…", lambda p: p.ask_note()),
     ),
     *rows_of("step", RUNNING, "", whole_window)(*(bookmark_row(k) for k in range(BOOKMARKS))),
     *rows_of("step", STAGE_GROUP, "Stage", whole_window)(
@@ -134,16 +125,11 @@ ACTIONS: tuple[Action, ...] = (
         Row("pin_up", "Alt+Up", "Move the pin up", lambda p: p.move_pin(0, 1)),
         Row("pin_down", "Alt+Down", "Move the pin down", lambda p: p.move_pin(0, -1)),
     ),
-    *rows_of("step", POINTING, "Step", whole_window)(
-        Row(
-            "value_origin_pixel",
-            "Y",
-            "Where does the pinned value come from?",
-            lambda w: w.page.go_to_writer(),
-        )
+    *rows_of("step", POINTING, "Step", lambda w: w.page)(
+        Row("value_origin_pixel", "Y", "Where does the pinned value come from?", lambda p: p.go_to_writer())
     ),
-    *rows_of("step", POINTING, "View", whole_window)(
-        Row("go_to_pixel", "Ctrl+G", "Go to pixel…", lambda w: w.overlays.ask_pixel())
+    *rows_of("step", POINTING, "View", lambda w: w.overlays)(
+        Row("go_to_pixel", "Ctrl+G", "Go to pixel…", lambda p: p.ask_pixel())
     ),
     *rows_of("step", VIEWING, "View", whole_window)(
         Row(
@@ -157,53 +143,50 @@ ACTIONS: tuple[Action, ...] = (
     *rows_of("", VIEWING, "", whole_window)(
         Row("unpin", "Escape", "Stop work, close the top pane or message, or remove the pin", dismiss)
     ),
-    *rows_of("step", VIEWING, "View", whole_window)(
-        Row("fit_view", "W", "Show all stepped pixels", lambda w: w.page.fit()),
-        Row("next_view", "V", "Next main view", lambda w: w.page.main_area.next_view()),
+    *rows_of("step", VIEWING, "View", lambda w: w.page)(
+        Row("fit_view", "W", "Show all stepped pixels", lambda p: p.fit()),
+        Row("next_view", "V", "Next main view", lambda p: p.main_area.next_view()),
         Row(
             "compare",
             "Ctrl+D",
             "A | B | difference",
-            lambda w: w.page.toggle_compare(),
+            lambda p: p.toggle_compare(),
             is_on=lambda w: w.page.current_view() == "compare",
             ends_group=True,
         ),
     ),
-    *rows_of("step", VIEWING, "", whole_window)(
-        Row("flip", "X", "Swap the pictures of A and B while held", lambda w: w.page.flip())
+    *rows_of("step", VIEWING, "", lambda w: w.page)(
+        Row("flip", "X", "Swap the pictures of A and B while held", lambda p: p.flip())
     ),
-    *rows_of("step", VIEWING, "View", whole_window)(
-        Row("edit_line", "F2", "Edit the line of the listing", lambda w: w.page.editing.edit_chosen_line()),
+    *rows_of("step", VIEWING, "View", lambda w: w.page)(
+        Row("edit_line", "F2", "Edit the line of the listing", lambda p: p.editing.edit_chosen_line()),
         Row(
-            "divergence",
-            "D",
-            "First divergence of A and B",
-            lambda w: w.page.comparing.meeting.go_to_divergence(),
+            "divergence", "D", "First divergence of A and B", lambda p: p.comparing.meeting.go_to_divergence()
         ),
     ),
     *rows_of("step", VIEWING, "View/Panes", whole_window)(*map(pane_row, PANES)),
-    *rows_of("step", VIEWING, "View", whole_window)(
+    *rows_of("step", VIEWING, "View", lambda w: w.page)(
         Row(
             "predict",
             "P",
             "Predict, then reveal",
-            lambda w: w.page.toggle_predicting(),
+            lambda p: p.toggle_predicting(),
             is_on=lambda w: w.session.is_predicting,
         ),
-        Row("ask_step", "Q", "Ask this step as a question", lambda w: w.page.asking.ask_step()),
+        Row("ask_step", "Q", "Ask this step as a question", lambda p: p.asking.ask_step()),
         Row(
             "ask_value",
             "Shift+Q",
             "Ask for the value of the pinned pixel",
-            lambda w: w.page.ask_value(),
+            lambda p: p.ask_value(),
             ends_group=True,
         ),
     ),
-    *rows_of("", PAGES, "Help", whole_window)(
-        Row("page_start", "Alt+0", "Start page", lambda w: w.pages.show_page("start"))
+    *rows_of("", PAGES, "Help", lambda w: w.pages)(
+        Row("page_start", "Alt+0", "Start page", lambda p: p.show_page("start"))
     ),
-    *rows_of("start", STEPPING, "", whole_window)(
-        Row("begin_stepping", "Right", "Step what is open", lambda w: w.start.step_on())
+    *rows_of("start", STEPPING, "", lambda w: w.start)(
+        Row("begin_stepping", "Right", "Step what is open", lambda p: p.step_on())
     ),
     *rows_of("", PAGES, "View/Pages", whole_window)(
         page_row("step", "Alt+1", "Step page"),
@@ -212,9 +195,9 @@ ACTIONS: tuple[Action, ...] = (
         page_row("plan", "Alt+4", "Plan page"),
         page_row("exercises", "Alt+5", "Exercises page"),
     ),
-    *rows_of("", PAGES, "View/Panes", whole_window)(
-        Row("next_pane", "F6", "Next pane", lambda w: w.focus_walk.go_pane(1)),
-        Row("previous_pane", "Shift+F6", "Previous pane", lambda w: w.focus_walk.go_pane(-1)),
+    *rows_of("", PAGES, "View/Panes", lambda w: w.focus_walk)(
+        Row("next_pane", "F6", "Next pane", lambda p: p.go_pane(1)),
+        Row("previous_pane", "Shift+F6", "Previous pane", lambda p: p.go_pane(-1)),
     ),
     *rows_of("", PAGES, "", lambda w: w.pages)(
         Row("next_page", "Ctrl+Tab", "Next page", lambda p: p.show_next(1)),
@@ -264,12 +247,12 @@ ACTIONS: tuple[Action, ...] = (
         Row("fit_region", "F", "Go into the triangle", fit_to_triangle),
         Row("whole_picture", "Shift+F", "Back to the whole picture", show_whole_picture),
     ),
-    *rows_of("step", EDITING, "Edit", whole_window)(
+    *rows_of("step", EDITING, "Edit", lambda w: w.edits)(
         Row(
             "toggle_shared",
             "Ctrl+J",
             "Shared vertices move together",
-            lambda w: w.edits.toggle_shared(),
+            lambda p: p.toggle_shared(),
             is_on=has_shared_vertices,
         )
     ),
@@ -297,32 +280,19 @@ ACTIONS: tuple[Action, ...] = (
             "previous_family", "Ctrl+PgUp", "Previous family", lambda p: p.show_neighbour(-1), ends_group=True
         ),
     ),
-    *rows_of("compare", CHARTS, "Compare", whole_window)(
-        Row("next_error", "E", "Next error on the axis", lambda w: w.compare.show_next_measure()),
-        Row(
-            "next_cost",
-            "X",
-            "Next cost on the axis: time or a count of work",
-            lambda w: w.compare.show_next_cost(),
-        ),
-        Row("show_numbers", "T", "Charts or numbers", lambda w: w.compare.toggle_numbers()),
-        Row(
-            "fit_charts",
-            "W",
-            "Show everything in the charts",
-            lambda w: w.compare.fit_charts(),
-            ends_group=True,
-        ),
-        Row(
-            "step_run", "Ctrl+Return", "Open the chosen run in the stepper", lambda w: w.compare.opened.step()
-        ),
+    *rows_of("compare", CHARTS, "Compare", lambda w: w.compare)(
+        Row("next_error", "E", "Next error on the axis", lambda p: p.show_next_measure()),
+        Row("next_cost", "X", "Next cost on the axis: time or a count of work", lambda p: p.show_next_cost()),
+        Row("show_numbers", "T", "Charts or numbers", lambda p: p.toggle_numbers()),
+        Row("fit_charts", "W", "Show everything in the charts", lambda p: p.fit_charts(), ends_group=True),
+        Row("step_run", "Ctrl+Return", "Open the chosen run in the stepper", lambda p: p.opened.step()),
         Row(
             "step_divergence",
             "Ctrl+Shift+Return",
             "Step two runs to their first divergence",
-            lambda w: w.compare.opened.step_to_divergence(),
+            lambda p: p.opened.step_to_divergence(),
         ),
-        Row("copy_pictures", "", "Copy the pictures", lambda w: w.compare.opened.copy()),
+        Row("copy_pictures", "", "Copy the pictures", lambda p: p.opened.copy()),
     ),
     *rows_of("stability", EXPERIMENTS, "Stability", lambda w: w.stability)(
         Row("run_experiment", "F5", "Run every method of the experiment", lambda p: p.start()),
@@ -341,18 +311,13 @@ ACTIONS: tuple[Action, ...] = (
         Row("shrink_cell", "S", "Shrink the chosen cell", lambda p: p.opened.shrink()),
         Row("save_case", "", "Save the smallest case…", lambda p: p.ask_save_case()),
     ),
-    *rows_of("plan", PLANNING, "Plan", whole_window)(
-        Row("analyse", "F5", "Analyse the scene", lambda w: w.plan.start()),
-        Row("cancel_analysis", "Shift+F5", "Cancel the analysis", lambda w: w.plan.cancel()),
-        Row("apply_plan", "Ctrl+Return", "Apply these settings", lambda w: w.plan.apply()),
-        Row(
-            "plan_difference",
-            "D",
-            "Difference from the reference settings",
-            lambda w: w.plan.open(),
-        ),
-        Row("plan_chart", "Ctrl+M", "Show the plan on the scene’s chart", lambda w: w.plan.show_on_chart()),
-        Row("plan_findings", "I", "Show or hide the findings", lambda w: w.plan.findings.toggle_findings()),
+    *rows_of("plan", PLANNING, "Plan", lambda w: w.plan)(
+        Row("analyse", "F5", "Analyse the scene", lambda p: p.start()),
+        Row("cancel_analysis", "Shift+F5", "Cancel the analysis", lambda p: p.cancel()),
+        Row("apply_plan", "Ctrl+Return", "Apply these settings", lambda p: p.apply()),
+        Row("plan_difference", "D", "Difference from the reference settings", lambda p: p.open()),
+        Row("plan_chart", "Ctrl+M", "Show the plan on the scene’s chart", lambda p: p.show_on_chart()),
+        Row("plan_findings", "I", "Show or hide the findings", lambda p: p.findings.toggle_findings()),
     ),
     *rows_of("exercises", ANSWERING, "Exercises", lambda w: w.exercises)(
         Row("check_answer", "Ctrl+Return F5", "Check the answer", lambda p: p.questions.check()),

@@ -27,7 +27,6 @@ CHECKED_TURNS = 64
 MOST_ARGUMENTS = 9
 FEW_LETTERS = 4
 """Names up to so long are proposed only where one letter differs."""
-UNEQUAL = "this list is not as long in every lane: it can only be put to, and returned"
 
 
 class PythonDialect:

@@ -46,8 +46,6 @@ HOW_STEPS = {
 class StepsAnswerView(AnswerView):
     """The steps so far, the one that is asked, and what may be done about a wrong try."""
 
-    uses_grid = True
-
     def __init__(self, form: Form, grid: MarkGrid, parent: QWidget | None = None) -> None:
         super().__init__(form, grid, parent)
         assert form.state is not None

@@ -247,7 +247,6 @@ FINE = 1 / 512
 class PlaceAnswerView(FieldAnswerView):
     """x and y of every point beside the picture."""
 
-    uses_grid = True
     name = "Places of the points"
     how = (
         "Click on the picture to place a point, and drag it. By keyboard: the arrows move it, with Shift by a pixel, "

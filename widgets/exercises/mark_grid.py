@@ -373,9 +373,6 @@ class AnswerView(QWidget):
     stop_requested = Signal()
     """A check of the answer that runs is to end."""
 
-    uses_grid = False
-    """Whether it is answered on the picture."""
-
     def __init__(self, form: Form, grid: MarkGrid, parent: QWidget | None = None) -> None:
         """Make an empty form; ``grid`` is the picture beside it."""
         super().__init__(parent)

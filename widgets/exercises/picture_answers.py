@@ -37,8 +37,6 @@ _RUN = re.compile(r"\s*(\d{1,3})(?:\s*[-–]\s*(\d{1,3}))?\s*", re.ASCII)
 class PixelAnswerView(AnswerView):
     """How many are marked, and the rows as text on request."""
 
-    uses_grid = True
-
     def __init__(self, form: Form, grid: MarkGrid, parent: QWidget | None = None) -> None:
         super().__init__(form, grid, parent)
         self._marks: Marks | None = None
@@ -223,8 +221,6 @@ def found_text(marks: Marks, row: int) -> str:
 class SpotAnswerView(AnswerView):
     """The marks on a picture, over the options."""
 
-    uses_grid = True
-
     def __init__(self, form: Form, grid: MarkGrid, parent: QWidget | None = None) -> None:
         super().__init__(form, grid, parent)
         self.pixels = PixelAnswerView(form, grid, self)
@@ -289,8 +285,6 @@ HOW_CORNERS = (
 
 class DialAnswerView(AnswerView):
     """A slider and a field for every number."""
-
-    uses_grid = True
 
     def __init__(self, form: Form, grid: MarkGrid, parent: QWidget | None = None) -> None:
         super().__init__(form, grid, parent)

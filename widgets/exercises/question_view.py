@@ -159,7 +159,6 @@ class SketchView(QWidget):
 # A question: its text and numbers, the form of its answer, hints, what a check found, and what to do next.
 
 
-MODEL_TIP = "Show the right answer; before a check this ends the variant without points (Ctrl+M)"
 _ART = re.compile(r"^[.#?A-Z]{4,}$", re.MULTILINE)
 WIDEST = 720
 """Pixels of a line of text at a size of 13: longer ones are hard to read."""

@@ -250,8 +250,3 @@ class PlanReport:
     """One sentence: whether the tolerance holds, and how much time is saved."""
     fallen_back: tuple[str, ...] = field(default=())
     """Settings that were put back to the dearest method since the first plan was not within the tolerance."""
-
-    @property
-    def time_saved(self) -> float:
-        """Part of the time of the reference settings that is saved, by the medians: 0.9 is ten times as fast."""
-        return 1 - float(np.median(self.seconds_chosen)) / float(np.median(self.seconds_everything))
