@@ -160,10 +160,18 @@ def has_bones(scene: AnyScene) -> bool:
     )
 
 
+def _visibility_trait(visibility: str) -> Any:
+    return None if isinstance(visibility, ReplacedName) else table.get("visibility", visibility).traits
+
+
 def casts_rays(visibility: str) -> bool:
     """Return whether a setting is a method, with its own function, that compares triangles exactly: by its trait."""
-    found = None if isinstance(visibility, ReplacedName) else table.get("visibility", visibility).traits
-    return bool(found == "exact")
+    return bool(_visibility_trait(visibility) == "exact")
+
+
+def decides_itself(visibility: str) -> bool:
+    """Return whether a method, with its own function, decides what is kept without the depth test: by its trait."""
+    return _visibility_trait(visibility) is not None
 
 
 def suited(settings: Any, scene: AnyScene) -> Any:
@@ -178,7 +186,7 @@ def suited(settings: Any, scene: AnyScene) -> Any:
     if isinstance(scene, ClipScene) and scene.table is not None:
         from core.depth.whole_depths import TABLE_DEPTHS  # Only such scenes wait for it.
 
-        seen = "z-buffer" if casts_rays(settings.visibility) else settings.visibility
+        seen = "z-buffer" if decides_itself(settings.visibility) else settings.visibility
         plain = type(settings)(polygon_mode="wireframe", visibility=seen, blend=settings.blend)
         return plain.replaced(depth=TABLE_DEPTHS[scene.table.test])
     if corner_count > 3:

@@ -20,7 +20,9 @@ from core.records.words import POLYGON, counted, joined, nouns
 from core.resolved import resolve
 from core.scene import ClipScene
 from core.stages.declared import GEOMETRY_STAGES, PHASES, stage_of
+from core.trace.sample_sources import stepped_sources
 from core.trace.source import TraceSource
+from core.visibility.hit_lists import HIT_BYTES
 from widgets.space.orbit import Orbit
 from widgets.space.scene_view import SceneView
 from widgets.space.view import OrbitArea
@@ -118,6 +120,8 @@ def _accesses(trace: Trace, fragment_count: int) -> str:
     if sampling.is_area or source.scene.corner_count == 0:
         return ""
     work = source.exact_tests.work if source.exact_tests is not None else {}
+    if "hits listed" in work:
+        return _kept_in_lists(source)
     if work:
         return "" if sampling.count > 1 else _compared_at_ends(work, fragment_count)
     one, many = (
@@ -129,6 +133,18 @@ def _accesses(trace: Trace, fragment_count: int) -> str:
     if geometry.drawing.asks_all:
         return f"Accessed: each {place} once, {many} {counted(places * count, 'time')}."
     return f"Accessed: each {one} once, {place}s {counted(fragment_count, 'time')}."
+
+
+def _kept_in_lists(source: TraceSource) -> str:
+    """Return how many hits are in lists, in how many bytes, against those of the samples of a z-buffer."""
+    samples, _ = stepped_sources(source)
+    work = [of.exact_tests.work for of in samples if of.exact_tests is not None]
+    hits, size = (sum(of[name] for of in work) for name in ("hits listed", "bytes of lists"))
+    longest, places = max(of["longest list"] for of in work), sum(of.place_count for of in samples)
+    return (
+        f"Listed: {counted(hits, 'hit')}, {size:,} bytes; the longest list has {longest:,}. A z-buffer holds "
+        f"{HIT_BYTES * places:,} bytes."
+    )
 
 
 def _compared_at_ends(work: Mapping[str, int], fragment_count: int) -> str:

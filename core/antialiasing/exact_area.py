@@ -352,9 +352,10 @@ class PiecePainter:
             x, y = self.centroids(there)
             _, keeps, stored = depth_at(self._geometry, primitive, x, y, self._format)
             passes = keeps
-            if self._geometry.drawing.decides is not None:
+            drawing = self._geometry.drawing
+            if drawing.decides is not None and not drawing.resolves_lists:
                 passes = keeps & ((there.primitive < 0) | self._is_nearer(primitive, there.primitive, x, y))
-            elif self._geometry.drawing.uses_depth_test:
+            elif drawing.uses_depth_test:
                 # The depth that is there, at this piece's own centroid.
                 _, _, old = depth_at(self._geometry, np.maximum(there.primitive, 0), x, y, self._format)
                 old = np.where(there.primitive >= 0, old, old.dtype.type(self._format.cleared))

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.coverage.pixel_runs import Raster, make_raster
-from core.families import casts_rays, suited
+from core.families import decides_itself, suited
 from core.fast_path.draw_context import Coloring, DepthStatistics, DrawContext, Picture, Route, Words, encode
 from core.fast_path.opaque import draw_opaque
 from core.fast_path.unlit import palette
@@ -186,7 +186,7 @@ def _draw_stacks(context: DrawContext) -> tuple[Route, DepthStatistics]:
 def is_drawn_by_spans(settings: Settings) -> bool:
     """Return whether spans can draw with these settings: filled, at centres, in numbers that suit, by the table."""
     resolved = resolve(settings)
-    suits_spans = resolved.numbers.suits_spans and not casts_rays(settings.visibility)
+    suits_spans = resolved.numbers.suits_spans and not decides_itself(settings.visibility)
     is_filled = settings.fill == "spans" and not resolved.is_outlined and settings.antialiasing == "none"
     return is_filled and suits_spans and not settings.replacements
 

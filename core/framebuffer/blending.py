@@ -194,3 +194,73 @@ def blend_stacks(
             of_hit = source.T.take(number.take(fragment.take(hit)), axis=1)
             there[:, hit] = rule(of_hit.T, there.take(hit, axis=1).T).T
     color[stacks.pixel] = there.T
+
+
+# A list that is sorted already is resolved from its front: what each fragment adds is what those in front of it let
+# through.
+
+
+def resolve_from_front(hits: Sequence[Sequence[float]], background: Sequence[float]) -> list[np.float32]:
+    """Return the colour of a pixel (listing of `add_behind`); ``hits`` from front to back, with straight alpha."""
+    color, rest = [0.0, 0.0, 0.0, 0.0], 1.0
+    for *own, alpha in hits:
+        if rest == 0:
+            break  #: shut
+        share = rest * alpha  #: share
+        color = [color[k] + share * own[k] for k in range(3)] + [color[3] + share]  #: add
+        rest = rest * (1 - alpha)  #: rest
+    return [np.float32(color[k] + rest * background[k]) for k in range(4)]  #: store
+
+
+def add_behind(color: Floats, rest: Floats, source: Floats) -> tuple[Floats, Floats]:
+    """Add fragments behind what is there already, which lets ``rest`` through.
+
+    Parameters
+    ----------
+    color : (F, 4) float64
+        What the fragments in front have added up to: premultiplied RGB and alpha, linear.
+    rest : (F,) float64
+        1 before the first fragment.
+    source : (F, 4) float64
+        Linear RGB and straight alpha of the fragments.
+
+    Returns
+    -------
+    color : (F, 4) float64
+        ``color + rest * a * source`` for RGB and ``color + rest * a`` for alpha; unchanged where ``rest`` is 0.
+    rest : (F,) float64
+        ``rest * (1 - a)``.
+
+    Notes
+    -----
+    From front to back with one rounding at the end: `over` from back to front rounds after each fragment, so that the
+    two may differ by as many roundings of float32.
+
+    References
+    ----------
+    T. Porter, T. Duff, Compositing digital images, 1984, "over" is associative.
+    L. Carpenter, The A-buffer, an antialiased hidden surface method, 1984.
+    """
+    share = rest * source[:, 3]
+    added = np.column_stack([share[:, None] * source[:, :3], share])
+    is_open = rest != 0
+    return np.where(is_open[:, None], color + added, color), np.where(
+        is_open, rest * (1 - source[:, 3]), rest
+    )
+
+
+def resolve_stacks(color: Singles, source: Floats, number: Integers, stacks: PixelStacks) -> None:
+    """Resolve stacks, which lie on their pixels from back to front, from the top down into a picture.
+
+    Arguments as in `blend_stacks`; all fragments pass.
+    """
+    added, rest = np.zeros((len(stacks.pixel), 4)), np.ones(len(stacks.pixel))
+    for count, fragment in stacks.layers_from_top():
+        own = source.take(number.take(fragment), axis=0)
+        added[:count], rest[:count] = add_behind(added[:count], rest[:count], own)
+    color[stacks.pixel] = over_background(added, rest, color.take(stacks.pixel, axis=0))
+
+
+def over_background(color: Floats, rest: Floats, background: Singles) -> Singles:
+    """Return what resolved lists (F, 4) leave over what was there before (F, 4), of which ``rest`` (F,) shows."""
+    return (color + rest[:, None] * background).astype(np.float32)

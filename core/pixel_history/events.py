@@ -35,6 +35,10 @@ from core.stages.hidden_surfaces import shades
 # The first line of a pixel's history: what is seen here and why, or what became of one triangle.
 
 
+FROM_FRONT = ("added", "shut-out")
+"""What becomes of fragments that are blended from front to back."""
+
+
 def pixel_verdict(events: Sequence[PixelEvent], counts: Mapping[str, int], blend: str) -> Link:
     """Return the verdict on a pixel.
 
@@ -42,7 +46,8 @@ def pixel_verdict(events: Sequence[PixelEvent], counts: Mapping[str, int], blend
     -----
     ``nothing-near``: no triangle's box contains it. ``all-missed``: some do, none has a fragment.
     ``all-rejected``: there were fragments, or culled triangles that would have had one. ``seen``,
-    ``seen-over`` (it overwrote others), ``blended``: the triangle drawn last is named.
+    ``seen-over`` (it overwrote others), ``blended``: the triangle drawn last is named. ``from-front``,
+    ``seen-in-front``: a list was resolved, and the triangle in front is named.
     """
     fragments = [event for event in events if event.kind == "fragment"]
     passed = [event for event in fragments if not event.is_rejected]
@@ -55,9 +60,13 @@ def pixel_verdict(events: Sequence[PixelEvent], counts: Mapping[str, int], blend
         "triangle_count": sum(counts.values()) + len({event.triangle for event in (*fragments, *others)}),
     }
     if passed:
-        values |= {"triangle": passed[-1].triangle}
-        hidden = [event for event in passed if event.reason.key == "overwritten"]
+        from_front = passed[0].reason.key in FROM_FRONT
+        values |= {"triangle": passed[0 if from_front else -1].triangle}
+        hidden = [event for event in passed if event.reason.key in ("overwritten", "shut-out")]
         values["overwritten_count"] = len(hidden)
+        if from_front and len(passed) > 1:
+            key = "from-front" if len(passed) - len(hidden) > 1 else "seen-in-front"
+            return Link("verdict", key, values)
         if blend_traits(blend).mixes and len(passed) - len(hidden) > 1:
             return Link("verdict", "blended", values)
         return Link("verdict", "seen-over" if hidden else "seen", values)
@@ -79,7 +88,7 @@ def triangle_verdict(events: Sequence[PixelEvent], triangle: int) -> Link:
 
     Notes
     -----
-    ``triangle-seen``, ``triangle-blended`` (others lie over it), ``triangle-overwritten``,
+    ``triangle-seen``, ``triangle-blended`` (others lie over it), ``triangle-overwritten``, ``triangle-shut-out``,
     ``triangle-rejected`` (it had a fragment), ``triangle-absent`` (it had none, and ``reason`` says why).
     """
     own = [event for event in events if event.triangle == triangle]
@@ -87,15 +96,16 @@ def triangle_verdict(events: Sequence[PixelEvent], triangle: int) -> Link:
     passed = [event for event in fragments if not event.is_rejected]
     listed = passed or fragments or own
     reason = listed[-1].reason if listed else Link("raster", "empty-cell", {})
-    drawn = [e.triangle for e in events if e.kind == "fragment" and not e.is_rejected]
-    seen = drawn[-1] if drawn else -1
+    drawn = [e for e in events if e.kind == "fragment" and not e.is_rejected]
+    from_front = bool(drawn) and drawn[0].reason.key in FROM_FRONT
+    seen = drawn[0 if from_front else -1].triangle if drawn else -1
     values: dict[str, Any] = {"triangle": triangle, "reason": reason, "seen": seen}
     if not fragments:
         key = "triangle-absent"
     elif not passed:
         key = "triangle-rejected"
-    elif reason.key == "overwritten":
-        key = "triangle-overwritten"
+    elif reason.key in ("overwritten", "shut-out"):
+        key = f"triangle-{reason.key}"
     else:
         key = "triangle-seen" if seen == triangle else "triangle-blended"
     return Link("verdict", key, values)
@@ -209,6 +219,8 @@ def _fragment_events(
             key = "overwritten" if hidden_by[k] >= 0 else "written"
             if key == "written" and blend_traits(blend).mixes:
                 key = "blended"
+            if fragments.from_front:
+                key = "shut-out" if hidden_by[k] >= 0 else "added"
             chain.append(Link("blend", key, values))
         event = PixelEvent(
             "fragment",

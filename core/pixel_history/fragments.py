@@ -14,7 +14,7 @@ from core.antialiasing.exact_area import ColoredPieces, PiecePainter, piece_pain
 from core.antialiasing.pixel_pieces import area_of, split_pieces, whole_pixels
 from core.coverage.pixel_runs import make_raster
 from core.depth.depth import DepthFormat, stack_fragments
-from core.framebuffer.blending import blend_traits
+from core.framebuffer.blending import add_behind, blend_traits, over_background
 from core.lines.wireframe_fragments import weigh_alpha, writes_depth
 from core.pixel_history.candidates import PixelCandidates, check_pixel, whole_geometry
 from core.pixel_history.pieces import painted_over
@@ -30,7 +30,7 @@ from core.stages.fragments import (
     not_discarded,
     surface_of,
 )
-from core.stages.hidden_surfaces import cleared_buffers, run_visibility_tests
+from core.stages.hidden_surfaces import cleared_buffers, resolves_from_front, run_visibility_tests
 from core.trace.source import TraceSource
 
 # What the history of a pixel is made of: keys and numbers, no sentences.
@@ -156,9 +156,11 @@ class PixelFragments:
     exact: tuple[NDArray[Any], Mapping[str, Integers]] | None
     """Of those that ``keeps`` has, (K,): what is said of an exact comparison, as ``ExactTests.told`` gives it."""
     turn: Integers | None = None
-    """(F,) int64, the fragments from back to front, where scan lines sort them; ``None``: in drawing order."""
+    """(F,) int64, the fragments as they reach the buffers, where they are sorted; ``None``: in drawing order."""
     light_share: Floats | None = None
     """(F,) float64, what arrives of the light that casts shadows; ``None``: no shadow is looked for."""
+    from_front: bool = False
+    """Whether they are blended from front to back."""
 
     @property
     def in_turn(self) -> list[int]:
@@ -190,9 +192,10 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
     )
     before, passes = np.full(count, np.nan, depth_format.stored_type), np.zeros(count, bool)
     before[index], passes[index] = tests.before, tests.passes
-    turn = None
+    turn, from_front = None, resolves_from_front(geometry)
     if exact is not None and exact.turn is not None:
-        turn = np.concatenate([np.flatnonzero(~keeps), index[exact.turn]])
+        turned = exact.turn[::-1] if from_front else exact.turn
+        turn = np.concatenate([np.flatnonzero(~keeps), np.setdiff1d(index, index[turned]), index[turned]])
     return PixelFragments(
         primitive,
         geometry.primitives.triangle[primitive],
@@ -211,6 +214,7 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
         None if exact is None else exact.told(),
         turn,
         surface.light_share,
+        from_front,
     )
 
 
@@ -232,10 +236,14 @@ class Passage:
 
 
 def fold(fragments: PixelFragments, start: PixelState, candidates: PixelCandidates) -> list[Passage]:
-    """Lay the fragments into the buffers one by one; return what became of each (F)."""
+    """Lay the fragments into the buffers one by one; return what became of each (F).
+
+    Blended from front to back, the colour after a fragment is what the list would give if it ended there.
+    """
     rule = resolve(candidates.settings).blend_method.function
     tested = candidates.geometry.drawing.uses_depth_test
     state, below = start, -1
+    added, rest = np.zeros((1, 4)), np.ones(1)
     passages: dict[int, Passage] = {}
     for k in fragments.in_turn:
         offered = fragments.source[k : k + 1]
@@ -244,8 +252,13 @@ def fold(fragments: PixelFragments, start: PixelState, candidates: PixelCandidat
         out = PixelState(shown, float(fragments.stored[k]), int(fragments.triangle[k]))
         after = state
         if fragments.passes[k]:
-            blended = rule(offered, state.color[None])
-            kept = out if fragments.writes[k] else state
+            if fragments.from_front:
+                added, rest = add_behind(added, rest, offered)
+                blended = over_background(added, rest, start.color[None])
+            else:
+                blended = rule(offered, state.color[None])
+            is_hidden = fragments.from_front and state.triangle >= 0
+            kept = out if fragments.writes[k] and not is_hidden else state
             after = PixelState(read_only(blended[0]), kept.depth, kept.triangle)
         link = _depth_link(fragments, k, state.triangle, tested)
         if link.key == "not-tested" and below >= 0:
@@ -297,13 +310,14 @@ def overwriters(fragments: PixelFragments, blend: str) -> list[int]:
 
     Notes
     -----
-    Opaque hides always, "over" hides what is below it where its alpha is 1, additive hides nothing.
+    Opaque hides always, "over" hides what is below it where its alpha is 1, additive hides nothing. Blended from front
+    to back, it is the one in front that hides the others.
     """
     hides = fragments.passes & blend_traits(blend).hides(fragments.source[:, 3])
     found, hider = [-1] * len(hides), -1
-    for k in reversed(fragments.in_turn):
+    for k in fragments.in_turn if fragments.from_front else reversed(fragments.in_turn):
         found[k] = hider if fragments.passes[k] else -1
-        hider = int(fragments.triangle[k]) if hides[k] else hider
+        hider = int(fragments.triangle[k]) if hides[k] and (hider < 0 or not fragments.from_front) else hider
     return found
 
 

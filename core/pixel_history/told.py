@@ -223,10 +223,19 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     ("verdict", "blended"): lambda v: (
         f"{v['passed_count'] - v['overwritten_count']} fragments are blended here, {_name(v)} last"
     ),
+    ("verdict", "from-front"): lambda v: (
+        f"{v['passed_count'] - v['overwritten_count']} hits are blended here from front to back, {_name(v)} in front"
+    ),
+    ("verdict", "seen-in-front"): lambda v: (
+        f"{_name(v)} is visible here, and hides {counted(v['overwritten_count'], 'hit')} behind it"
+    ),
     ("verdict", "triangle-seen"): lambda v: f"{_name(v)} is visible here",
     ("verdict", "triangle-blended"): lambda v: f"{_name(v)} is blended here, under {_name(v, 'seen')}",
     ("verdict", "triangle-overwritten"): lambda v: (
         f"{_name(v)} was drawn here and then overwritten by {v['drawn'].one} {v['reason'].values['by']}"
+    ),
+    ("verdict", "triangle-shut-out"): lambda v: (
+        f"{_name(v)} is hidden here behind {v['drawn'].one} {v['reason'].values['by']}, which lets nothing through"
     ),
     ("verdict", "triangle-rejected"): lambda v: f"{_name(v)} was rejected here: {_reason(v)}",
     ("verdict", "triangle-absent"): lambda v: f"{_name(v)} has no fragment here: {_reason(v)}",
@@ -278,6 +287,11 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     ("depth", "scan-tied"): lambda v: f"exactly as near as {_holder(v)}, and a tie keeps what is drawn first",
     ("depth", "scan-farthest"): "the farthest in its segment of the row, so it is drawn first",
     ("depth", "scan-layer"): lambda v: f"drawn over {_holder(v)}, which is not nearer, compared exactly",
+    ("depth", "list-front"): lambda v: f"at the front of the sorted list of {counted(v['length'], 'hit')}",
+    ("depth", "list-behind"): lambda v: (
+        f"at place {v['place']} of {v['length']} in the sorted list, behind {_holder(v)}"
+    ),
+    ("depth", "list-beyond"): "not in the list: its depth is not nearer than the cleared one",
     ("depth", "painted-over"): _painted_over,
     ("depth", "ray-hidden"): lambda v: (
         f"hidden by the tree: the ray does not open node {v['node']}, missed, or behind another hit"
@@ -294,6 +308,10 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
         f"{'its depth was ' if v['is_depth'] else ''}written, later overwritten by {_name(v, 'by')}"
     ),
     ("blend", "blended"): lambda v: f"blended with alpha {exact_text(v['alpha'])}",
+    ("blend", "added"): lambda v: (
+        f"blended with alpha {exact_text(v['alpha'])} behind what is in front of it"
+    ),
+    ("blend", "shut-out"): lambda v: f"not blended: {_name(v, 'by')} in front of it lets nothing through",
 }
 """Stage and key to the sentence, without capital and full stop."""
 

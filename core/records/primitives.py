@@ -211,7 +211,7 @@ class DrawingOrder:
     """(Q,) int64, the primitives from the first drawn to the last; one that is cut stands there once for each piece."""
     uses_depth_test: bool
     decides: "Decide | None" = None
-    """Compares fragments exactly; ``None``: by what the depth buffer holds, if at all."""
+    """Decides which fragments are kept; ``None``: by what the depth buffer holds, if at all."""
     row_order: "RowOrder | None" = None
     """How the stage depth lists its rows, as `PIXEL_BY_PIXEL`; ``None``: triangle by triangle."""
     asks_all: bool = False
@@ -222,6 +222,8 @@ class DrawingOrder:
     """Whether rays find the primitives that they ask in a tree of boxes."""
     own_rows: str = ""
     """What puts rows of the order itself before those of the depth test, ``module.function``; empty: it has none."""
+    resolves_lists: bool = False
+    """Whether what is blended over is resolved from the front of each pixel's list to its back."""
 
     @property
     def is_as_given(self) -> bool:

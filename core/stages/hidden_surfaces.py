@@ -21,10 +21,11 @@ from core.depth.depth import (
     run_depth_tests,
     stack_fragments,
 )
-from core.framebuffer.blending import blend_stacks
+from core.framebuffer.blending import blend_stacks, resolve_stacks
 from core.lines.wireframe_fragments import writes_depth
+from core.methods import is_registered
 from core.records.arrays import Flags, Floats, Integers, Singles, read_only
-from core.resolved import resolve
+from core.resolved import MIXING, resolve
 from core.scene import AnyScene
 from core.stages.fragments import fragments_at, owner_of
 from core.stages.geometry import Geometry
@@ -90,6 +91,9 @@ def run_visibility_tests(
         is_mixed=resolve(geometry.settings).is_mixed,
         is_outlined=geometry.outlines is not None,
         keeps_visits=keeps_visits,
+        stored=stored,
+        initial_depth=start.depth,
+        depth_format=depth_format,
     )
     passes, exact = decides(case)
     kept = passes if writes is None else passes & writes
@@ -109,6 +113,11 @@ def shades(scene: AnyScene, geometry: Geometry) -> str:
     return "all" if scene.program is not None else resolve(geometry.settings).shades
 
 
+def resolves_from_front(geometry: Geometry) -> bool:
+    """Return whether the fragments of a pixel are blended from its front to its back, see `add_behind`."""
+    return geometry.drawing.resolves_lists and is_registered(resolve(geometry.settings).blend_name, MIXING)
+
+
 @dataclass(frozen=True, eq=False)
 class DecidedFragments:
     """F fragments of a picture in drawing order, and which of them pass."""
@@ -121,6 +130,8 @@ class DecidedFragments:
     """(F,) bool."""
     left: Stored | None = None
     """(F,) what the depth buffer holds after each, where an edited depth test says so."""
+    from_front: bool = False
+    """Whether the stacks, sorted from back to front, are resolved from their tops."""
 
     @property
     def passing(self) -> Fragments:
@@ -129,7 +140,11 @@ class DecidedFragments:
 
     def blend_into(self, color: Singles, source: Floats, rule: Callable[..., Any]) -> None:
         """Blend colours (G, 4) of those that pass into ``color`` (H*W, 4) by a method of the family ``blend``."""
-        blend_stacks(color, source, np.cumsum(self.passes) - 1, self.stacks, self.passes, rule)
+        number = np.cumsum(self.passes) - 1
+        if self.from_front:
+            resolve_stacks(color, source, number, self.stacks)
+        else:
+            blend_stacks(color, source, number, self.stacks, self.passes, rule)
 
     def last_kept(self, raster: Raster) -> tuple[Integers, Integers]:
         """Return the pixels that something is seen at (V,), and the fragment (V,) that was kept there last."""
@@ -192,5 +207,6 @@ def decide_fragments(
     if exact is not None and exact.turn is not None:
         fragments, stored = fragments.take(exact.turn), stored[exact.turn]
         stacks = stack_fragments(raster.index(fragments.column, fragments.row))
-        return DecidedFragments(fragments, stored, stacks, np.ones(len(exact.turn), bool))
+        from_front = resolves_from_front(geometry)
+        return DecidedFragments(fragments, stored, stacks, np.ones(len(stored), bool), None, from_front)
     return DecidedFragments(fragments, stored, stacks, tests.passes, tests.left)

@@ -24,6 +24,7 @@ from core.study.whole_picture import PIPELINE, standing_in
 from core.tessellation.measured import TESSELLATION
 from core.tessellation.measured_dice import DICING
 from core.trees.measured import HIERARCHY
+from core.visibility.measured_lists import LISTS
 from core.visibility.measured_loops import LOOPS
 
 OWN = (
@@ -45,6 +46,7 @@ OWN = (
     SHADOW,
     VISIBILITY,
     LOOPS,
+    LISTS,
     CULL,
     DEPTH_TEST_TIME,
     HIERARCHY,

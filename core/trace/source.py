@@ -157,6 +157,11 @@ class TraceSource:
         return self.raster.index(self.fragments.column, self.fragments.row)
 
     @property
+    def place_count(self) -> int:
+        """Pixels of the buffers."""
+        return self.raster.shape[0] * self.raster.shape[1]
+
+    @property
     def centers(self) -> tuple[Floats, Floats]:
         """X and y (F,) of the fragments' pixel centres."""
         return self.raster.centers(self.fragments.column, self.fragments.row)
@@ -273,7 +278,7 @@ class TraceSource:
     def _left(self) -> Flags:
         """(F,) bool, the fragments whose depth is left in the end: of each place the last that passes."""
         passed, place = np.flatnonzero(self.depth_tests.passes), self.place
-        last = np.full(self.raster.shape[0] * self.raster.shape[1], -1)
+        last = np.full(self.place_count, -1)
         np.maximum.at(last, place[passed], passed)
         left = np.zeros(len(place), bool)
         left[last[last >= 0]] = True

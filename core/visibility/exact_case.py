@@ -1,4 +1,4 @@
-"""What methods of visibility that compare triangles exactly are given, and what they answer.
+"""What methods of visibility that decide without the depth test are given, and what they answer.
 
 Picture, trace and history of a pixel ask all of them in the same words: `core.stages.hidden_surfaces` makes the case.
 """
@@ -14,7 +14,7 @@ from core.records.arrays import Flags, Floats, Integers, cached_property
 
 if TYPE_CHECKING:
     from core.coverage.fills import Fragments
-    from core.depth.depth import PixelStacks
+    from core.depth.depth import DepthFormat, PixelStacks, Stored
     from core.visibility.ray_casting import RayPlanes
     from core.visibility.rays_in_tree import TreeRays
 
@@ -43,6 +43,11 @@ class ExactCase:
     """Whether the fragments are pixels of lines, which have no spans."""
     keeps_visits: bool
     """Whether the boxes that rays ask are listed, see `core.visibility.tree_walk`."""
+    stored: "Stored"
+    """(F,) what the depth buffer gets of each fragment."""
+    initial_depth: "Stored"
+    """(U,) what it holds before."""
+    depth_format: "DepthFormat"
 
     @cached_property
     def rays(self) -> tuple[Floats, Floats]:
@@ -60,7 +65,7 @@ class ExactCase:
 
 
 class ExactTests(Protocol):
-    """How F fragments were compared exactly."""
+    """How F fragments were compared, exactly or by their stored depths."""
 
     tracer: ClassVar[str]
     """What makes the rows of the stage depth of it, ``module.function``, given a ``TraceSource`` and this."""

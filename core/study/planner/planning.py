@@ -27,6 +27,7 @@ from core.study.planner.records import (
 )
 from core.study.planner.reference_settings import reference_settings
 from core.study.planner.trials import Choice, Costs, Trial, Trials, TriedCosts, loses_fragments
+from core.visibility.hit_lists import HIT_BYTES
 
 # Why each method was chosen: what was seen in the scene, and what was measured of the cheaper methods.
 
@@ -135,6 +136,11 @@ def _visibility_fact(seen: Seen) -> str:
         asked = counted(seen.in_view, "{one}", "{many}")
         text += f" Rays, one for each pixel, would ask {asked} {counted(seen.pixels, 'time')}."
         text += _tree_fact(seen.triangles)
+        if seen.is_translucent and seen.fragments:
+            text += (
+                f" Lists of hits would keep {counted(seen.fragments, 'fragment')} that were looked at, "
+                f"{HIT_BYTES * seen.fragments:,} bytes, and blend them in order."
+            )
         text += (
             f" Scan lines would compare depths only where {{many}} overlap: in {seen.overlapped:,} of "
             f"{counted(seen.covered, 'pixel')} that {'was' if seen.covered == 1 else 'were'} looked at."

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from core import ClipScene, Settings, draw_picture, render
 from core.coverage.number_formats import number_format
-from core.families import casts_rays
+from core.families import decides_itself
 from core.fast_path import sampled
 from core.framebuffer.display import encode_linear, to_display
 from core.methods import table
@@ -45,7 +45,7 @@ def test_every_choice_has_the_bytes_of_the_plain_way(shown, choice):
         settings.fill != "spans"
         or settings.blend != "opaque"
         or settings.polygon_mode != "fill"
-        or casts_rays(settings.visibility)
+        or decides_itself(settings.visibility)
         or not number_format(settings.coverage).suits_spans
     )
     assert picture.route.visibility == ("frame" if is_plain else "multisampled")

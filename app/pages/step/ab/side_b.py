@@ -53,6 +53,7 @@ AGAINST: Mapping[str, Mapping[str, tuple[str, ...]]] = {
     "visibility": {
         "painters": ("bsp",),
         "scan-line": ("z-buffer",),
+        "hit-lists": ("z-buffer",),
         "ray-casting-tree": ("ray-casting-by-pixel",),
         "ray-casting-by-pixel": ("z-buffer",),
     },
