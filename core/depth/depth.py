@@ -50,14 +50,6 @@ class PixelStacks:
         for layer, count in enumerate(self.higher):
             yield count, self.fragment.take(self.bottom[:count] + layer)
 
-    def layers_from_top(self) -> Iterator[tuple[int, Integers]]:
-        """Yield the same from the top down: the last fragment of each pixel, then the one below it, and so on."""
-        higher = np.array(self.higher, np.int64)
-        height = len(higher) - np.searchsorted(higher[::-1], np.arange(len(self.pixel)), "right")
-        top = self.bottom + height - 1
-        for layer, count in enumerate(self.higher):
-            yield count, self.fragment.take(top[:count] - layer)
-
 
 def stack_fragments(pixel: Integers) -> PixelStacks:
     """Stack fragments on pixels (F,) int64, which are given in drawing order."""

@@ -250,13 +250,16 @@ def add_behind(color: Floats, rest: Floats, source: Floats) -> tuple[Floats, Flo
 
 
 def resolve_stacks(color: Singles, source: Floats, number: Integers, stacks: PixelStacks) -> None:
-    """Resolve stacks, which lie on their pixels from back to front, from the top down into a picture.
+    """Resolve stacks, which lie on their pixels from back to front, from the top down into a picture (H*W, 4).
 
     Arguments as in `blend_stacks`; all fragments pass.
     """
-    added, rest = np.zeros((len(stacks.pixel), 4)), np.ones(len(stacks.pixel))
-    for count, fragment in stacks.layers_from_top():
-        own = source.take(number.take(fragment), axis=0)
+    pixels = len(stacks.pixel)
+    height = len(stacks.higher) - np.searchsorted(stacks.higher[::-1], np.arange(pixels), "right")
+    top = stacks.bottom + height - 1
+    added, rest = np.zeros((pixels, 4)), np.ones(pixels)
+    for layer, count in enumerate(stacks.higher):
+        own = source.take(number.take(stacks.fragment.take(top[:count] - layer)), axis=0)
         added[:count], rest[:count] = add_behind(added[:count], rest[:count], own)
     color[stacks.pixel] = over_background(added, rest, color.take(stacks.pixel, axis=0))
 

@@ -29,9 +29,9 @@ def share(step: StepValues) -> Said:
 @explains("blend.front|line-front.add")
 def add(step: StepValues) -> Said:
     """The colour so far."""
-    before, after, source = (step.vector(name) for name in ("added_before", "added", "source"))
+    before, after, source = (step.vector(name) for name in ("front_color", "added", "source"))
     channel = outstanding([after[k] - before[k] for k in range(3)])
-    text = f"{step.pixel_name}: with {step.name} added behind, the colour is {vector_text(after)}"
+    text = f"{step.pixel_name}: with {step.name} added, the colour is {vector_text(after)}"
     new = in_channel("new", after, channel)
     added = in_channel("front", before, channel) + step.named("share", _SHARE) @ in_channel(
         "source", source, channel
@@ -78,9 +78,9 @@ shows(
     {
         "rest_before": VariableText("r before", "How much what is in front lets through."),
         "share": VariableText("s", "How much of the pixel the hit gives."),
-        "added_before": VariableText("front", "Colour and alpha of the hits in front, added up."),
+        "front_color": VariableText("front", "Colour and alpha of the hits in front, added up."),
         "added": VariableText(
-            "colour", "Colour and alpha of the hits so far, added up.", previous="added_before"
+            "colour", "Colour and alpha of the hits so far, added up.", previous="front_color"
         ),
         "rest": VariableText("r", "How much the hits so far let through.", previous="rest_before"),
     },

@@ -17,7 +17,7 @@ FRONT_TO_BACK = RowOrder(
 """Pixel after pixel, and of each its fragments from front to back."""
 _ADD = (
     Operation("share", "share", {"share": "share"}, ("source", "rest_before")),
-    Operation("add", "add", {"added": "color"}, ("added_before",)),
+    Operation("add", "add", {"added": "color"}, ("front_color",)),
     Operation("rest", "rest", {"rest": "rest"}),
 )
 _WEIGH = Operation("weigh", "weigh", {"source": "alpha"}, ("color", "intensity"))
@@ -25,7 +25,11 @@ FRONT_OPERATIONS: dict[str, tuple[Operation, ...]] = {
     "front": _ADD,
     "line-front": (_WEIGH, *_ADD),
     "front-shut": (Operation("shut", "shut", (), ("rest_before",)),),
-    "front-store": (Operation("store", "store", {"after": RETURN}, ("added", "rest", "before")),),
+    "front-store": (
+        Operation(
+            "store", "store", {"after": RETURN}, {"added": "front", "rest": "through", "before": "buffer"}
+        ),
+    ),
 }
 """Kind of row to what it does: a fragment that is added, one behind an opaque one, and the end of a list."""
 KINDS = tuple(FRONT_OPERATIONS)
@@ -41,12 +45,12 @@ def trace_from_front(source: TraceSource) -> StageTrace:
     count = len(drawn)
 
     # What is added so far, and what shows through, before and after each fragment, one layer after another.
-    added_before, added = np.zeros((2, count, 4))
+    front_color, added = np.zeros((2, count, 4))
     rest_before, rest = np.ones((2, count))
     stacks = stack_fragments(place)
     sums, open_part = np.zeros((len(stacks.pixel), 4)), np.ones(len(stacks.pixel))
     for reached, fragment in stacks.layers():
-        added_before[fragment], rest_before[fragment] = sums[:reached], open_part[:reached]
+        front_color[fragment], rest_before[fragment] = sums[:reached], open_part[:reached]
         sums[:reached], open_part[:reached] = add_behind(
             sums[:reached], open_part[:reached], colors.take(fragment, axis=0)
         )
@@ -70,7 +74,7 @@ def trace_from_front(source: TraceSource) -> StageTrace:
         "source": colors[which],
         "rest_before": rest_before[state],
         "share": np.where(is_added, rest_before[state] * colors[state][:, 3], np.nan),
-        "added_before": added_before[state],
+        "front_color": front_color[state],
         "added": added[state],
         "rest": rest[state],
         "before": there,

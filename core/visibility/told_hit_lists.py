@@ -1,17 +1,24 @@
 """Lists of hits, told step by step: what is appended, how the list is sorted, and what of it is seen."""
 
 import math
+from dataclasses import replace
+
+import numpy as np
 
 from core.depth.told import held_name, quantity_of
 from core.explain.formulas import concludes, formula_of, named
 from core.explain.number_text import pair_text, spoken
-from core.explain.records import Asked, number
+from core.explain.records import Asked, choice, number
+from core.explain.step_tables import FilledColumn, cell_texts, filled_table, tabulates
 from core.explain.step_values import Said, StepValues, explains
 from core.explain.steps import VariableText, given, hides, shows
+from core.records.arrays import Integers
+from core.records.steps import StepTable, TableCell, TableColumn
 from core.records.words import counted
+from core.trace.stage_trace import StageTrace
 
 
-def how_many(step: StepValues) -> Asked:
+def how_many(step: StepValues) -> Asked | None:
     """Ask how long the list is now."""
     length = step.whole("length")
     return number(
@@ -27,7 +34,18 @@ def appended(step: StepValues) -> Said:
     return text + ("; nothing is compared yet." if length > 1 else ".")
 
 
-@explains("depth.hit-beyond.beyond", decides=True)
+def is_kept(step: StepValues) -> Asked | None:
+    """Ask whether a hit is blended, or seen."""
+    what = "blended" if step.flag("shows_through") else "seen"
+    outcome = "" if step.flag("passes") else "not "
+    return choice(
+        f"Is {step.name} {what} at {step.the_pixel}?",
+        0 if step.flag("passes") else 1,
+        f"it is {outcome}{what}.",
+    )
+
+
+@explains("depth.hit-beyond.beyond", asks=is_kept, decides=True)
 def beyond(step: StepValues) -> Said:
     """A hit behind what the depth buffer holds from the start."""
     new, old = step.number("stored"), step.number("before")
@@ -72,6 +90,8 @@ def front_seen(step: StepValues) -> Said:
     """What becomes of the front."""
     if step.flag("shows_through"):
         return f"{step.pixel_name}: {step.name} is to be blended, with nothing in front of it{_stored(step)}."
+    if step.whole("length") == 1:
+        return f"{step.pixel_name}: {step.name} is seen{_stored(step)}."
     return f"{step.pixel_name}: {step.name} is seen, as in opaque drawing the front hides the rest{_stored(step)}."
 
 
@@ -93,7 +113,7 @@ def sorted_behind(step: StepValues) -> Said:
     return f"{step.pixel_name}: {text}", formula_of(concludes("behind", "behind", behind))
 
 
-@explains("depth.list-next.resolve", decides=True)
+@explains("depth.list-next.resolve", asks=is_kept, decides=True)
 def rest_seen(step: StepValues) -> Said:
     """What becomes of a hit that is not in front."""
     if step.flag("shows_through"):
@@ -125,3 +145,57 @@ shows(
 hides("depth.hit|hit-beyond", ("place", "in_front", "front_depth"))
 hides("depth.out-of-range|discarded", ("length", "place", "in_front", "front_depth"))
 hides("depth.list-front", ("in_front", "front_depth"))
+
+
+_APPENDED = (
+    FilledColumn(
+        "depth", "What the depth format stores of the hit.", lambda step: step.number("stored"), "stored"
+    ),
+)
+_PLACE = TableColumn("place", "Place in the sorted list, 1 in front.")
+
+
+@tabulates("depth", ("hit",))
+def list_of_pixel(trace: StageTrace, rows: Integers, position: int) -> StepTable:
+    """Return the list of a pixel or sample, rows (R,) of its hits: as appended, then with places."""
+    steps, columns = trace.steps, trace.columns
+    column, row = trace.pixel[rows[0]].tolist()
+    own, place = trace.rows_at_pixel(column, row), f"pixel ({column}, {row})"
+    if "sample" in columns:
+        current, _ = steps.row_at(position)
+        sample = int(columns["sample"][current if current in own else rows[0]])
+        own, place = own[columns["sample"][own] == sample], f"sample {sample} of {place}"
+        rows = rows[np.isin(rows, own)]
+    is_sorted = np.isin(steps.kind[own], [steps.kinds.index(kind) for kind in ("list-front", "list-next")])
+    ranked = own[is_sorted]
+    labels = [str(number) for number in trace.triangle[rows].tolist()]
+    note = f"{counted(len(ranked), 'hit')}, {trace.triangle[ranked[0]]} in front."
+    table = filled_table(
+        trace,
+        rows,
+        position,
+        f"List of {place}",
+        "Triangle",
+        labels,
+        _APPENDED,
+        closing=int(ranked[-1]),
+        note=note,
+        grows=True,
+    )
+    cells = [[*line, None] for line in table.cells]
+    at, made = table.row, set(table.made)
+    order = {primitive: k for k, primitive in enumerate(columns["primitive"][rows].tolist())}
+    for rank, of in enumerate(ranked.tolist(), start=1):
+        line, known = order[int(columns["primitive"][of])], int(steps.starts[of]) + 1
+        if position >= known:
+            cells[line][-1] = TableCell(*cell_texts(rank), known)
+            at = line
+        if position == known:
+            made.add((line, 1))
+    return replace(
+        table,
+        columns=(*table.columns, _PLACE),
+        cells=tuple(tuple(line) for line in cells),
+        made=frozenset(made),
+        row=at,
+    )

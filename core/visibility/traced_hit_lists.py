@@ -76,6 +76,7 @@ def trace_lists(source: TraceSource, lists: HitLists) -> StageTrace:
         "primitive": fragments.primitive[which],
     }
     columns |= {name: values[which] for name, values in value_columns(source).items()}
+    columns["after"] = np.where(columns["is_stored"], columns["stored"], columns["before"])
     triangle, at = source.triangle_of_fragment[which], source.place[which]
     appended, written = np.flatnonzero(~is_sorted & is_listed[which]), np.flatnonzero(columns["is_stored"])
     decided = np.flatnonzero(is_sorted | ~is_listed[which])

@@ -210,6 +210,11 @@ def traces() -> dict[str, dict[str, Trace]]:
     layered = Settings(visibility="scan-line", blend="over")
     rare["layers"] = trace(make_scene("crossing-glass"), layered, region=(26, 28, 8, 3))
     rare["layers and a tie"] = trace(ClipScene(np.tile(corners, (2, 1, 1)), size=(16, 12)), layered)
+    lists = Settings(visibility="hit-lists", blend="over")
+    rare["lists"] = trace(make_scene("crossing-glass"), lists, region=(26, 28, 8, 3))
+    rare["lists that end early"] = trace(make_scene("intersecting"), lists, region=(26, 28, 2, 1))
+    pale = replace(lists, polygon_mode="wireframe", line="wu")
+    rare["lists of lines"] = trace(make_scene("intersecting"), pale, region=(20, 28, 20, 6))
     # A shader that discards half of a square, and calls a function.
     square = square_scene("if (vUv.x > 0.5) discard; c = vec4(length(vUv));", (4, 4))
     rare["shader"] = trace(square, Settings(), 0)

@@ -47,13 +47,20 @@ def answer_of_transform(values: dict) -> float:
     return values["count"] if values.get("count", -1) >= 0 else values["after"][0]
 
 
+def answer_of_depth(values: dict) -> float:
+    """Of a hit that is appended how long its list is; else whether a box is opened, or a fragment kept."""
+    if values.get("place") == -1 and values["length"] > 0:
+        return values["length"]
+    return 1 - values["is_opened" if values.get("is_box") else "passes"]
+
+
 ANSWERS = {
     "transform": answer_of_transform,
     "edges": lambda values: values["a"],
     "bin": lambda values: {"outside": 0, "inside": 1}.get(values["verdict"], 2),
     "raster": lambda values: 1 - values["covered"],
     "interpolate": lambda values: values["weights"][0] if "s" not in values else values["s"],
-    "depth": lambda values: 1 - values["is_opened" if values.get("is_box") else "passes"],
+    "depth": answer_of_depth,
     "blend": lambda values: values["after"][0],
     "resolve": lambda values: (
         values["bytes"][0] if values["column"] >= 0 else values["above"] == values["picture"]
@@ -84,6 +91,8 @@ def test_questions_are_finished_and_have_the_right_answer() -> None:
                 values = stage.variables(row)
                 if name == "depth" and stage.pixel[row, 0] < 0:
                     assert asked.answer == OF_THE_ORDER[stage.kind_of(row)](values), (asked, values)
+                elif stage.kind_of(row) == "list-front":
+                    assert asked.answer == stage.triangle[row]
                 elif name in ANSWERS and not {"has_stepped", "is_inside", "threshold"} & {*values}:
                     assert asked.answer == float(np.asarray(ANSWERS[name](values))), (asked, values)
                 assert not asked.choices or asked.answer in range(len(asked.choices)), asked

@@ -1,12 +1,16 @@
 """The listings of ray casting, depth and blending, executed on the rows."""
 
+from fractions import Fraction
 from math import isnan
+
+import numpy as np
 
 from core.depth.depth import depth_in_range, depth_test, store_depth
 from core.depth.fixed_depth import packed_depth_test, rounded_depth_test
-from core.framebuffer.blending import additive_pixel, opaque_pixel, over_pixel
+from core.framebuffer.blending import additive_pixel, opaque_pixel, over_pixel, resolve_from_front
 from core.trace import Trace
 from core.trace.stage_trace import StageTrace
+from core.visibility.hit_lists import list_hits
 from core.visibility.ray_casting import hit_is_nearer, hit_value
 from tests.core.trace.executed_rows import equal, rows_of_kind
 
@@ -19,10 +23,10 @@ def check_rays(traced: Trace) -> None:
         for row in rows_of_kind(found, kind):
             (triangle, nearest), ray = (
                 (found.triangle[row], c["nearest"][row]),
-                (int(c["m"][row]), int(c["n"][row])),
+                (Fraction(c["m"][row]), Fraction(c["n"][row])),
             )
             plane = [float(c[name][row]) for name in "abcd"]
-            hit = hit_value(plane, c["sizes"][row].tolist(), *ray, width, height)
+            hit = hit_value(plane, c["sizes"][row].tolist(), *map(float, ray), width, height)
             assert hit == (c["nearness"][row], c["error"][row])
             corners = planes.clip[nearest].tolist() if has_nearest else None
             before = c["nearest_nearness"][row], c["nearest_error"][row]
@@ -33,11 +37,34 @@ def check_rays(traced: Trace) -> None:
             )
 
 
+def by_sample(found: StageTrace) -> dict[tuple[int, ...], list[int]]:
+    """Return the rows of each pixel, or of each of its samples."""
+    sample = found.columns.get("sample", np.zeros(found.steps.row_count, np.int64))
+    rows: dict[tuple[int, ...], list[int]] = {}
+    for row, key in enumerate(zip(*found.pixel.T.tolist(), sample.tolist(), strict=True)):
+        rows.setdefault(key, []).append(row)
+    return rows
+
+
+def check_lists(found: StageTrace) -> None:
+    """Append and sort each list by its listing."""
+    c, kind_of = found.columns, [found.steps.kinds[kind] for kind in found.steps.kind.tolist()]
+    check_stored(found, "hit")
+    for rows in by_sample(found).values():
+        hits = [(c["stored"][row], c["primitive"][row]) for row in rows if kind_of[row].startswith("hit")]
+        known = found.constants["larger_is_nearer"], found.constants["shows_through"]
+        kept = list_hits(hits, c["before"][rows[0]], *known)
+        listed = list_hits(hits, c["before"][rows[0]], known[0], True)
+        ranked = [row for row in rows if kind_of[row].startswith("list")]
+        assert [(c["stored"][row], c["primitive"][row]) for row in ranked] == listed
+        assert [(c["stored"][row], c["primitive"][row]) for row in ranked if c["passes"][row]] == kept
+
+
 def check_depth(traced: Trace) -> None:
     found = traced.stage("depth")
     c = found.columns
     if traced.source.geometry.drawing.decides is not None:
-        check_rays(traced)
+        check_lists(found) if "hit" in found.steps.kinds else check_rays(traced)
         return
     if "key" in c:
         check_keys(found)
@@ -92,6 +119,11 @@ def check_keys(found: StageTrace) -> None:
 def check_blend(traced: Trace) -> None:
     found = traced.stage("blend")
     c = found.columns
+    if "front-store" in found.steps.kinds:
+        for rows in by_sample(found).values():
+            store = rows[-1]
+            assert equal(resolve_from_front(c["source"][rows[:-1]], c["before"][store]), c["after"][store])
+        return
     for row in rows_of_kind(found, traced.source.settings.blend):
         mixing = {"over": over_pixel, "additive": additive_pixel}.get(traced.source.settings.blend)
         source = c["source"][row]

@@ -13,7 +13,7 @@ from core.framebuffer.blending import resolve_from_front
 from core.methods import table
 from core.pixel_history import why
 from core.records.arrays import Floats
-from core.trace import TraceSource
+from core.trace.source import TraceSource
 from core.visibility.hit_lists import HIT_BYTES, HitLists, list_hits
 from lessons.scenes import make_scene
 from tests.core.strategies import clip_of_window

@@ -54,6 +54,17 @@ def test_dicing() -> None:
     assert (coarse.counts["longest list"], two.counts["longest list"]) == (2, 4)
 
 
+def test_lists() -> None:
+    # A z-buffer holds one depth and colour for each of 48 x 48 pixels, 20 bytes, and drops what comes behind: wrong but
+    # for a single pane. Lists hold 20 bytes for each fragment, and are right in any order.
+    for count in (1, 8):
+        buffers, lists = (run("lists", count=count)[name] for name in ("z-buffer", "hit-lists"))
+        assert buffers.counts["bytes held"] == 20 * 48 * 48
+        assert lists.counts["bytes held"] == 20 * lists.counts["fragments"]
+        assert lists.errors["wrong-color"] == 0
+        assert (buffers.errors["wrong-color"] > 0) == (count > 1)
+
+
 def test_tessellation() -> None:
     # The largest second difference of the arch is (-30, -42): six times its length is 309.7, an eighth of it 38.7, so
     # ceil(sqrt(38.7 / 0.5)) = 9 segments keep half a pixel. Halving makes 16, as it can only double; where a curve
