@@ -1,5 +1,7 @@
 """Scenes of Bezier curves and patches."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from core.records.arrays import Floats
@@ -57,6 +59,23 @@ def ball() -> Scene:
     return balls(1)
 
 
+def folded_glass() -> Scene:
+    """A sheet of glass in the shape of an S, three layers deep in its middle, and a flat one that cuts through it."""
+    part = np.linspace(0, 1, 4)
+    there = np.array([8.0, 92.0, -28.0, 56.0])
+    folded = np.stack(
+        np.broadcast_arrays(there[:, None], 5 + 38 * part, np.array([-8.0, -8, 8, 8])[:, None]), axis=2
+    )
+    across = 4 + 56 * part[:, None]
+    flat = np.stack(np.broadcast_arrays(across, 10 + 28 * part, (across - 32) / 2.5), axis=2)
+    meshes = []
+    for number, (name, patch) in enumerate((("folded sheet", folded), ("flat sheet", flat))):
+        mesh = mesh_of_patches(patch[None], name=name)
+        glass = linear_color(FACE_COLORS[number]) * [1, 1, 1, 0.5]
+        meshes.append(replace(mesh, colors=np.tile(glass, (len(mesh.positions), 1))))
+    return Scene(tuple(meshes), _before(30.0), (sun(),), TEACHING_SIZE)
+
+
 def cracked() -> Scene:
     """Two flat patches with one curved edge in common; the upper one bends more at its other edge.
 
@@ -66,7 +85,6 @@ def cracked() -> Scene:
     edge = np.array(ARCH)
     foot = np.stack([edge[:, 0], np.full(4, 2.0)], axis=1)
     top = np.array([(2.0, 10.0), (4.0, 56.0), (58.0, 58.0), (62.0, 12.0)])
-    width, height = TEACHING_SIZE
     meshes = []
     for number, (name, below, above) in enumerate((("lower patch", foot, edge), ("upper patch", edge, top))):
         part = np.linspace(0, 1, 4)[None, :, None]
@@ -77,13 +95,18 @@ def cracked() -> Scene:
         meshes.append(
             mesh_of_patches(patch[None], name=name, colors=np.tile(color, (len(mesh.positions), 1)))
         )
+    return Scene(tuple(meshes), _before(5.0), (), TEACHING_SIZE)
+
+
+def _before(distance: float) -> Camera:
+    """Return a camera without perspective that sees x and y as pixels, from a distance in front of z = 0."""
+    width, height = TEACHING_SIZE
     middle = np.array([width / 2, height / 2, 0.0])
-    camera = Camera(
-        eye=middle + np.array([0.0, 0.0, 5.0]),
+    return Camera(
+        eye=middle + np.array([0.0, 0.0, distance]),
         target=middle,
         projection="orthographic",
         view_height=float(height),
         near=1.0,
-        far=9.0,
+        far=2 * distance - 1,
     )
-    return Scene(tuple(meshes), camera, (), TEACHING_SIZE)

@@ -16,8 +16,8 @@ from lessons.assembled_scenes import (
     triangle_strip,
 )
 from lessons.bone_scenes import bent_bar, blended_bar, twisted_tube
-from lessons.curve_scenes import arch, ball, cracked, curve_in_depth, hill
-from lessons.layer_scenes import crossing_glass, four_layers, intersecting
+from lessons.curve_scenes import arch, ball, cracked, curve_in_depth, folded_glass, hill
+from lessons.layer_scenes import crossing_glass, fan, four_layers, intersecting
 from lessons.run_place import FIRST_STEP, RunPlace
 from lessons.shapes import FACE_COLORS, cube, knot, linear_color, sphere, teapot, torus
 from lessons.window_scenes import (
@@ -83,19 +83,6 @@ def shared_edge() -> ClipScene:
     )
     colors = np.stack([np.tile(linear_color(color), (3, 1)) for color in FACE_COLORS[:2]])
     return ClipScene(clip, colors, TEACHING_SIZE, shared=corners)
-
-
-def fan() -> ClipScene:
-    """Sixteen triangles around a pixel centre: edges to all sides run through pixel centres."""
-    rim = [(20, 0), (20, 8), (18, 18), (8, 20), (0, 20), (-8, 20), (-18, 18), (-20, 8)]
-    around = [(0, 0), *rim, *((-x, -y) for x, y in rim)]
-    x, y = np.array(around).T + np.array([[32.5], [24.5]])
-    corners = np.array([[0, k, k % 16 + 1] for k in range(1, 17)])
-    clip = np.stack(
-        [window_triangle(x[row], y[row], np.full(3, 0.5), np.ones(3), TEACHING_SIZE) for row in corners]
-    )
-    palette = [linear_color(FACE_COLORS[k % 4]) for k in range(16)]
-    return ClipScene(clip, np.repeat(palette, 3, axis=0).reshape(16, 3, 4), TEACHING_SIZE, shared=corners)
 
 
 def near_plane() -> Scene:
@@ -385,6 +372,20 @@ CATALOGUE = (
         ball,
         RunPlace("transform", 'kind == "cut-dice"'),
         {"tessellation": "reyes", "curve_tolerance": "64", "shading": "gouraud"},
+    ),
+    BuiltInScene(
+        "folded-glass",
+        "Folded sheet of glass",
+        "A sheet lies three times over itself, another cuts through it: pixels list up to four micropolygons each.",
+        folded_glass,
+        RunPlace("depth", 'kind == "list-front" and column == 30 and row == 24', pixel=(30, 24)),
+        {
+            "tessellation": "reyes",
+            "curve_tolerance": "128",
+            "shading": "gouraud",
+            "visibility": "hit-lists",
+            "blend": "over",
+        },
     ),
     BuiltInScene(
         "cracked-patches",

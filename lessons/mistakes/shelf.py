@@ -11,6 +11,7 @@ from lessons.mistakes import (
     depths,
     fragments,
     history,
+    hit_lists,
     planes,
     presenting,
     scan_conversion,
@@ -37,6 +38,7 @@ SHELF: dict[str, Twin] = {
         depths,
         planes,
         boxes,
+        hit_lists,
     )
     for twin in module.TWINS
 }
@@ -55,6 +57,7 @@ RULES: dict[str, WrongRule] = {
         depths,
         planes,
         scan_lines,
+        hit_lists,
         boxes,
         smoothing,
         visible_work,

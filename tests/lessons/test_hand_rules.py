@@ -6,7 +6,7 @@ from math import acos, degrees, radians
 import numpy as np
 import pytest
 
-from core import Camera, ClipScene, DirectionalLight, Material, Mesh, Settings, render
+from core import Camera, ClipScene, DirectionalLight, Material, Mesh, Settings, render, trace
 from core.coverage.snapping import window_position
 from core.scene import Texture
 from core.shading.lighting import blinn_phong, plain_lights, plain_material
@@ -15,7 +15,7 @@ from core.transform.matrices import projection, rotation, scaling, translation, 
 from core.transform.vertex_stage import world_normals
 from lessons.exercises.numbers import Draws, NoQuestionError
 from lessons.exercises.templates.on_picture import draw_box
-from lessons.mistakes import depths, scan_lines, transforms
+from lessons.mistakes import depths, hit_lists, scan_lines, transforms
 from lessons.mistakes.shelf import RULES, SHELF
 from lessons.mistakes.twin import Case, line_pixels
 from lessons.small_scenes import pixel_segments, triangle_scene
@@ -250,3 +250,23 @@ def test_a_row_of_spans_shows_what_is_nearest_at_each_column() -> None:
         segments, depths_of_ends = scan_lines.row_work(spans)
         assert segments <= 5
         assert depths_of_ends <= sum(span.right - span.left for span in spans)
+
+
+def test_a_list_is_resolved_as_the_program_does() -> None:
+    draws = np.random.default_rng(8)
+    for _ in range(20):
+        hits = [
+            hit_lists.Hit(int(depth), int(draws.integers(0, 9)), F(int(draws.integers(0, 5)), 4))
+            for depth in draws.permutation(9)[:4] + 1
+        ]
+        colors = [[(hit.grey / 8, 0, 0, float(hit.alpha))] * 3 for hit in hits]
+        scene = triangle_scene(
+            [depths.WINDOW] * 4, (2, 2), depth=[[hit.depth / 16] * 3 for hit in hits], attributes=colors
+        )
+        over_red = ClipScene(scene.clip, scene.attributes, scene.size, background=np.array([0.5, 0, 0, 1]))
+        frame = render(over_red, Settings(visibility="hit-lists", blend="over", interpolation="flat"))
+        (grey,) = hit_lists.resolved(hits, 4)
+        assert frame.color[0, 0, 0] == np.float32(grey / 8)
+        blended = hit_lists.listed_and_blended(hits)[1]
+        counted = trace(over_red, Settings(visibility="hit-lists", blend="over")).stage("blend")
+        assert np.count_nonzero(counted.marks["covered"]) == 4 * blended

@@ -13,6 +13,7 @@ from lessons.mistakes import (
     depths,
     fragments,
     history,
+    hit_lists,
     planes,
     presenting,
     scan_conversion,
@@ -48,7 +49,19 @@ def test_a_wrong_formula_shows_in_one_place_and_hides_in_another(rule: WrongRule
 
 
 def test_names_are_unique_and_unknown_ones_refused() -> None:
-    runs = {boxes, clipping, coverage, depths, planes, scan_conversion, fragments, lines, textures, shadows}
+    runs = {
+        boxes,
+        clipping,
+        coverage,
+        depths,
+        planes,
+        scan_conversion,
+        fragments,
+        lines,
+        textures,
+        shadows,
+        hit_lists,
+    }
     formulas = {
         bones,
         boxes,
@@ -61,10 +74,13 @@ def test_names_are_unique_and_unknown_ones_refused() -> None:
         shadows,
         smoothing,
     }
-    formulas |= {surfaces, textures, transforms, visible_work, presenting, history}
+    formulas |= {surfaces, textures, transforms, visible_work, presenting, history, hit_lists}
     count = sum(len(module.TWINS) for module in runs) + sum(len(module.RULES) for module in formulas)
     both = SHELF.keys() & RULES.keys()
-    assert both == {"front-and-back-swapped", "octant-of-centre", "sorted-after-division"}
+    assert both == {
+        *("front-and-back-swapped", "octant-of-centre", "sorted-after-division"),
+        *("list-not-sorted", "sorted-farthest-first"),
+    }
     assert all(SHELF[name].sentence == RULES[name].sentence for name in both)
     assert len(MISTAKES) == count - len(both) + len(SHADERS)
     with pytest.raises(ValueError, match="expected a mistake such as corner-for-center"):

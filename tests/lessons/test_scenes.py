@@ -75,7 +75,7 @@ def test_the_catalogue():
         "pentagram", "near-plane", "intersecting", "crossing-glass", "bar-and-wire", "circle-of-bars", "depth-table",
         "four-layers", "two-buffers", "z-fighting", "textured-floor",
         "lit-floor", "box-in-light", "cube", "boxes-around", "two-boxes", "bent-bar", "twisted-tube", "blended-bar",
-        "curve", "curve-in-depth", "hill", "diced-hill", "diced-ball", "cracked-patches",
+        "curve", "curve-in-depth", "hill", "diced-hill", "diced-ball", "folded-glass", "cracked-patches",
         "teapot", "sphere", "torus", "knot",
     )  # fmt: skip
     for scene in CATALOGUE:

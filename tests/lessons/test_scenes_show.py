@@ -144,6 +144,13 @@ CLAIMS = {
         len(before_matrices(s.document.scene, s.document.settings).meshes[0].positions) == 1352
         and ((s.ids() >= 0) != disc()).sum() == 16
     ),
+    "folded-glass": lambda s: (
+        s.column("depth", "length").max() == 4
+        and np.any(
+            s.frame().color
+            != render(s.document.scene, replace(s.document.settings, visibility="z-buffer")).color
+        )
+    ),
     "cracked-patches": lambda s: (
         (counts := s.column("transform", "count"))[counts > 0].tolist() == [2, 1, 3, 1]
         and s.frame().cover_count[4:44].min(axis=0).size == 64

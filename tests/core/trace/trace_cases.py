@@ -92,6 +92,7 @@ LEFT_OUT = (
     "hill",
     "diced-hill",
     "diced-ball",
+    "folded-glass",
     "cracked-patches",
     "fan",
     "triangle-strip",
