@@ -155,8 +155,11 @@ _NO_MOVE = (
 """Focus that comes back, or that the program gives, as when the view that had it is put away for another."""
 
 
-GIVEN_BACK = Qt.FocusReason.NoFocusReason
-"""Focus that a page takes, or Escape gives back to the main view: it is seen, but the arrows go on stepping."""
+GIVEN_BACK = Qt.FocusReason.ShortcutFocusReason
+"""Focus that a page takes, or Escape gives back to the main view: it is seen, but the arrows go on stepping.
+
+Not `NoFocusReason`: with it Qt sends no event, and neither ring nor screen reader would follow.
+"""
 
 
 def is_focus_by_keyboard(event: QFocusEvent, before: bool) -> bool:

@@ -4,6 +4,7 @@ from itertools import pairwise
 
 import pytest
 from PySide6.QtCore import QPoint, QRect, Qt
+from PySide6.QtGui import QColor
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QSplitterHandle, QTabBar, QWidget
 
@@ -11,6 +12,7 @@ from app.window import focus_walk
 from app.window.main_window import MainWindow
 from tests.covering import is_everything
 from widgets.basics.accessibility import ArrowGroup, tab_stops
+from widgets.basics.theme import current_theme
 from widgets.space.scene_view import SceneView
 
 pytestmark = pytest.mark.shared_window
@@ -122,6 +124,16 @@ def check_f6(window: MainWindow, page: str) -> None:
     forward[0].setFocus(Qt.FocusReason.TabFocusReason)
     window.run_action("unpin")
     assert window.focusWidget() in main
+
+
+def test_the_ring_follows_the_focus_that_a_page_takes(window: MainWindow) -> None:
+    """Qt sends no event for a focus without a reason: neither ring nor screen reader would follow."""
+    window.run_action("page_step")
+    grid, ring = window.page.grid, QColor(current_theme().focus)
+    window.page.timeline.transport_buttons()[0].setFocus(Qt.FocusReason.MouseFocusReason)
+    assert grid.grab().toImage().pixelColor(1, grid.height() // 2) != ring
+    window.page.take_focus()
+    assert grid.grab().toImage().pixelColor(1, grid.height() // 2) == ring
 
 
 def test_arrows_go_through_a_row_of_buttons(window: MainWindow) -> None:
