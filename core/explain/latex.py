@@ -58,6 +58,8 @@ _EDGE_LETTER = re.compile(r"\\(alpha|beta|gamma)(?![A-Za-z_])(?!\s*_)")
 MATRIX_WITH_SCRIPT = re.compile(
     r"(\\begin\{([bpvBV]?matrix|array)\}(?:(?!\\begin).)*?\\end\{\2\})(?=\s*[\^_])", re.DOTALL
 )
+_BETWEEN = re.compile(r"(?<=[^\s&])[\s&]*\\q?quad(?![A-Za-z])(?![\s&]*\(\\mathrm\{mod)[\s&]*(?=\S)")
+"""What stands between two statements of one line, but not before a modulus."""
 _EDGE_LETTERS = {"alpha": 0, "beta": 1, "gamma": 2}
 _PLAIN = {
     **{
@@ -201,7 +203,7 @@ def without_macros(latex: str) -> str:
 @lru_cache(maxsize=4096)
 def plain_text(latex: str) -> str:
     """Readable text for screen readers, tooltips, and formulas that cannot be typeset."""
-    text = _VERTEX_MACRO.sub("", latex).replace(r"\_", "_")
+    text = _BETWEEN.sub("; ", _VERTEX_MACRO.sub("", latex)).replace(r"\_", "_")
     text = re.sub(r"\\(?:textcolor|color)\{[^{}]*\}", "", text)
     text = re.sub(r"\\(?:mathrm|text)\s*\{([^{}]*)\}", r"\1", text)
     for _ in range(4):
@@ -298,7 +300,7 @@ def spoken(formula: Formula) -> str:
 
 def _words(latex: str) -> str:
     """Return one line of LaTeX in words."""
-    text = plain_text(re.sub(r"\\q?quad(?![A-Za-z])", ";", latex))
+    text = plain_text(latex)
     for pattern, replacement in _PATTERNS:
         text = re.sub(pattern, replacement, text)
     return re.sub(r" ([.,])(?= |$)", r"\1", " ".join("".join(map(_said, text)).split()))

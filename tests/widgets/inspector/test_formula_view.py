@@ -80,6 +80,8 @@ def test_symbols_of_a_vertex_get_its_colour() -> None:
 def test_plain_text_and_standard_latex() -> None:
     assert plain_text(r"\frac{1}{w} = \vertex{0}{u} \cdot \alpha") == "1/w = u · α"
     assert without_macros(r"\vertex{0}{u} & = & 1") == "{u} = 1"
+    assert plain_text(r"a & = & 1 & \quad & b & = & 2") == "a = 1; b = 2"
+    assert plain_text(r"a = 7 \quad (\mathrm{mod} \, 2^{32})") == "a = 7 (mod 2^32)"
 
 
 def test_a_matrix_with_an_exponent_is_typeset() -> None:
