@@ -10,9 +10,10 @@ from app.views.pointed_pixel import pointed_pixels, shown_triangle
 from app.views.pyramid_diagram import pyramid_diagram
 from app.views.texture_footprint import texture_of, texture_pictures
 from core import STAGES
-from core.explain.step_tables import has_tables, largest_tables, step_table
+from core.explain.step_tables import first_in_table, largest_tables, step_table
 from core.records.arrays import Floats
 from core.records.words import nouns
+from core.scene import Scene
 from core.trace.stage_trace import StageTrace
 from core.transform.traced import CLIP, SPACES, WINDOW, spaces_reached
 from widgets.basics.controls import column_layout, text_label
@@ -199,8 +200,10 @@ class EnteredSpace(Companion):
         return self._space
 
     def is_wanted(self, moment: Moment) -> bool:
-        """Return whether there are corners."""
-        return moment.steps.row_count > 0
+        """Return whether there are corners, but no bones or shapes that move them first: those need the room."""
+        scene = moment.document.scene
+        meshes = scene.meshes if isinstance(scene, Scene) else ()
+        return moment.steps.row_count > 0 and all(mesh.deformation is None for mesh in meshes)
 
     def draw(self) -> None:
         """Draw the corners that have been divided by w, and the triangles of three such corners."""
@@ -226,8 +229,9 @@ class FillingTable(Companion):
         return self._view
 
     def is_wanted(self, moment: Moment) -> bool:
-        """Return whether some row of the stage stands in a table."""
-        return has_tables(moment.stage_trace)
+        """Return whether some row of the stage stands in a table; where curves are cut first, one that is done."""
+        first = first_in_table(moment.stage_trace)
+        return first < moment.steps.row_count and (moment.cursor.stage != STAGES[0] or moment.row >= first)
 
     def wanted_size(self, moment: Moment, width: int) -> tuple[int, int]:
         """Return the size in which the largest tables of the stage are seen whole."""

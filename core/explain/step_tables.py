@@ -72,13 +72,12 @@ def tabulates(stage: str, kinds: Sequence[str], level: Level = Level.GROUP) -> C
     return enter
 
 
-def has_tables(trace: StageTrace) -> bool:
-    """Return whether some row of a stage stands in a table."""
+def first_in_table(trace: StageTrace) -> int:
+    """Return the first row of a stage that stands in a table, or the number of its rows: none does."""
     load_subjects()
     kinds = {kind for form in _FORMS.get(trace.stage, ()) for kind in form.kinds}
-    return any(
-        bool((trace.steps.kind == k).any()) for k, kind in enumerate(trace.steps.kinds) if kind in kinds
-    )
+    found = (trace.steps.kind == k for k, kind in enumerate(trace.steps.kinds) if kind in kinds)
+    return min((int(rows.argmax()) for rows in found if rows.any()), default=trace.steps.row_count)
 
 
 def step_table(trace: StageTrace, position: int) -> StepTable | None:

@@ -12,6 +12,7 @@ from app.session.session import Session
 from app.views.companions import COMPANIONS, Companion, NewDepths, ScreenBeside
 from app.views.pass_view import PassBeside
 from app.views.stage_views import StageViews
+from core.explain.step_tables import first_in_table
 from core.stages.declared import stage_of
 from widgets.basics.accessibility import announce
 from widgets.basics.controls import column_layout, flat_button, row_layout, text_label
@@ -218,7 +219,8 @@ class MainArea(QWidget):
     def _companion(self) -> Companion | None:
         """Return what stands beside the stage's own view."""
         stage = self._moment.cursor.stage
-        if stage in ("depth", "transform") and self.companions["order"].is_wanted(self._moment):
+        trace = self._moment.stage_trace
+        if stage in ("depth", "transform") and first_in_table(trace) < trace.steps.row_count:
             return self.companions["order"]
         if stage == "shade" and self.companions["pass"].is_wanted(self._moment):
             return self.companions["pass"]

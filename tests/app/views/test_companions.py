@@ -45,6 +45,18 @@ def test_a_stage_of_two_sides_shows_both(window: MainWindow, scene: str, beside:
     assert set(COMPANIONS) >= beside
 
 
+def test_what_is_empty_leaves_the_room_to_the_scene(window: MainWindow) -> None:
+    """Bones move vertices before any is divided by w; patches are cut before the first point is mixed."""
+    session, area = window.session, window.page.main_area
+    for scene in ("bent-bar", "diced-ball"):
+        session.open(open_document(make_scene(scene), scene))
+        session.set_stage("transform", 1)
+        assert not area.beside.isVisible(), scene
+    session.set_stage("transform")
+    assert area.beside.currentWidget() is area.companions["order"].widget
+    assert area.beside.isVisible()
+
+
 def test_both_depths_are_alike_and_lie_where_they_are_largest(window: MainWindow) -> None:
     area, page = window.page.main_area, window.page
     window.session.open(open_document(make_scene("cube"), "cube"))
