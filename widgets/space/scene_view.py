@@ -260,8 +260,11 @@ class SceneView(OrbitArea):
         for mark in picture.marks:
             if (around := _small_box(mark, area)) is not None:
                 places.avoid(around)
-        for mark in picture.marks:
-            _paint_mark(painter, mark, area, places, theme)
+        # All words after all marks: none may lie over a word.
+        ends = [_paint_mark(painter, mark, area, places, theme) for mark in picture.marks]
+        for mark, end in zip(picture.marks, ends, strict=True):
+            if mark.label and end is not None:
+                paint_label(painter, places, end, mark.label, mark.ink, theme, 7.0, further=AROUND)
         apart = [QLineF(a, b).length() for (_, a), (_, b) in combinations(handles, 2)]
         # Smaller where they would cover each other.
         radius = min(max(min(apart, default=15.0) / 3, 2.0), 5.0)
@@ -344,8 +347,10 @@ def _small_box(mark: SceneMark, area: QRectF) -> QRectF | None:
     return None if first is None or last is None else QRectF(first, last)
 
 
-def _paint_mark(painter: QPainter, mark: SceneMark, area: QRectF, places: LabelPlaces, theme: Theme) -> None:
-    """Paint a line over the picture, and the mark at its end."""
+def _paint_mark(
+    painter: QPainter, mark: SceneMark, area: QRectF, places: LabelPlaces, theme: Theme
+) -> QPointF | None:
+    """Paint a line over the picture, and the mark at its end; return where that is, ``None``: too far away."""
     runs: list[list[QPointF]] = [[]]
     last = None
     for x, y in mark.points.tolist():
@@ -363,11 +368,9 @@ def _paint_mark(painter: QPainter, mark: SceneMark, area: QRectF, places: LabelP
         painter.setPen(pen)
         for run in runs:
             painter.drawPolyline(QPolygonF(run))
-    if last is None:
-        return
-    if mark.shape in ("ring", "disc", "cross"):
+    if last is not None and mark.shape in ("ring", "disc", "cross"):
         spot = Spot(np.zeros(3), mark.ink, mark.shape, 4.0)  # type: ignore[arg-type]
         paint_spot(painter, last, spot, theme)
-        places.take(QRectF(last.x() - 5, last.y() - 5, 10, 10))
-    if mark.label:
-        paint_label(painter, places, last, mark.label, mark.ink, theme, 7.0, further=AROUND)
+        around = QRectF(last.x() - 5, last.y() - 5, 10, 10)
+        (places.take if mark.label else places.avoid)(around)
+    return last

@@ -114,6 +114,18 @@ def test_marks_of_any_coordinates_can_be_drawn(view):
     assert not view.grab().isNull()
 
 
+def test_no_mark_lies_over_a_name(view):
+    """Of marks that do not meet, the order makes no difference: names come after all of them."""
+    named = SceneMark(np.array([[0.5, 0.5]]), label="bone 0", shape="disc")
+    around = [(0.5 + 0.05 * x, 0.5 + 0.05 * y) for x in (-2, -1, 1, 2) for y in (-2, -1, 1, 2)]
+    dots = [SceneMark(np.array([place]), shape="disc") for place in around]
+    pictures = []
+    for marks in ((named, *dots), (*dots, named)):
+        view.show_picture(picture_of(4, 4, marks=marks))
+        pictures.append(view.grab().toImage())
+    assert pictures[0] == pictures[1]
+
+
 def test_a_picture_of_fixed_size_keeps_its_shape(view, qtbot):
     with qtbot.waitSignal(view.size_changed):
         view.fix_picture_size((4, 2))
