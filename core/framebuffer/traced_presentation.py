@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from core.framebuffer.presentation import (
     SCAN,
+    SWAP,
     WRITE,
     Buffering,
     Events,
@@ -178,13 +179,14 @@ def _tracks(
         zip(happens.what.tolist(), happens.line.tolist(), happens.picture.tolist(), strict=True)
     ):
         row, at = first + event, height - 1 - line
+        begun = number + (what == SWAP)
+        if what in (WRITE, SWAP) and begun > seen and buffers > 1:
+            # The renderer turns to another buffer, which holds an older picture, or nothing: at the latest when
+            # its own becomes the front buffer.
+            older, seen = begun - buffers, begun
+            kept = np.zeros_like(pictures[0]) if older < 0 else pictures[older]
+            drawn.append((row, whole, kept.reshape(-1, 4)))
         if what == WRITE:
-            if number != seen and buffers > 1:
-                # The renderer turns to another buffer, which holds an older picture, or nothing.
-                older = number - buffers
-                kept = np.zeros_like(pictures[0]) if older < 0 else pictures[older]
-                drawn.append((row, whole, kept.reshape(-1, 4)))
-            seen = number
             places = whole if is_whole else at * width + np.arange(width)
             written = row, places, pictures[number].reshape(-1, 4)[places]
             writes[number % buffers].append(written)

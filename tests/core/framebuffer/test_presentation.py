@@ -140,6 +140,16 @@ def test_rows_fold_to_what_the_screen_shows(name: str, flush: str) -> None:
     assert found.columns["transfers"].max() == writes
 
 
+@pytest.mark.parametrize("name", ["double", "double-at-once", "triple"])
+def test_the_renderer_never_draws_into_the_front_buffer(name: str) -> None:
+    found = trace(make_scene("two-buffers"), Settings(presentation=name)).stage("resolve")
+    buffers = {track.name: track for track in found.buffers}
+    swaps = np.flatnonzero(found.steps.kind == found.steps.kinds.index("swap"))
+    for row in swaps.tolist():
+        front = buffers[f"buffer {found.columns['buffer'][row]}"].at(row + 1)
+        assert not np.array_equal(buffers["drawn into"].at(row + 1), front)
+
+
 def test_listings_give_the_rows() -> None:
     found = trace(make_scene("two-buffers"), Settings(presentation="triple")).stage("resolve")
     for row in range(found.steps.row_count):

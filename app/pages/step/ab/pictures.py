@@ -37,6 +37,8 @@ ORDERED_STAGES = ("bin", "raster", "depth")
 """Stages in which methods may do the same in another order."""
 SHOWS_MORE = {"coverage": "overdraw"}
 """By buffer, another one that shows the same difference, and pixels that are drawn again."""
+SEEN_FIRST = "screen"
+"""What is compared before all else where pictures are presented: it is what one sees of both."""
 SHOWN_MARKS = ("rejected", "tie", "nan", "failed", *LANE_MARKS)
 """Marks of rows done that lie over the pictures."""
 
@@ -66,10 +68,14 @@ def pictured(
 def _first_comparable(buffers: Sequence[Mapping[str, GridBuffer]]) -> str:
     """Return the name of the first buffer that holds the same in all runs, or else of the first one."""
     first, *others = buffers
-    for name, buffer in first.items():
+    for name, buffer in sorted(first.items(), key=_is_seen_later):
         if all(name in other and _hold_the_same(buffer, other[name]) for other in others):
             return name
     return next(iter(first))
+
+
+def _is_seen_later(named: tuple[str, object]) -> bool:
+    return named[0] != SEEN_FIRST
 
 
 def differing_buffer(first: Step, second: Step) -> str:
@@ -81,7 +87,7 @@ def differing_buffer(first: Step, second: Step) -> str:
         for name, buffer in mine.items()
         if name in theirs and _hold_the_same(buffer, theirs[name])
     }
-    found = next((name for name, count in counts.items() if count), "")
+    found = next((name for name, count in sorted(counts.items(), key=_is_seen_later) if count), "")
     more = SHOWS_MORE.get(found, "")
     return more if counts.get(more, 0) > counts.get(found, 0) else found
 

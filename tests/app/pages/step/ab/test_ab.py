@@ -134,6 +134,15 @@ def test_b_is_what_the_lectures_compare_a_method_with(
     assert first_difference(document, document.make_trace(), stage, {}) == expected
 
 
+def test_what_the_screen_shows_is_compared_first(window: MainWindow) -> None:
+    window.session.open(
+        open_document(make_scene("two-buffers"), "Bar", settings=Settings(presentation="triple"))
+    )
+    window.session.set_stage("resolve")
+    window.page.show_view("compare")
+    assert window.page.compare_view.buffer_box.currentData() == "screen"
+
+
 def test_two_depth_formats_are_compared_in_what_both_hold(window: MainWindow) -> None:
     window.session.open(open_document(make_scene("z-fighting"), "Plates"))
     window.session.set_stage("depth")
