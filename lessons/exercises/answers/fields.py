@@ -76,7 +76,8 @@ class FieldAnswer(Answer):
         wrong, count = self.wrong(response), sum(map(len, self.cells))
         right = count - len(wrong)
         score = self.score(response, right / count)
-        return Verdict(score, f"{right} of {count} {self.noun}s right", {"wrong": wrong})
+        counts = f"{right} of {count} {self.noun}s right" if count > 1 else ("wrong", "right")[right]
+        return Verdict(score, counts, {"wrong": wrong})
 
     def score(self, response: Any, share: float) -> float:
         """Return what an answer earns of which a share of the cells is right."""

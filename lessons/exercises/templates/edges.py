@@ -31,7 +31,8 @@ from lessons.mistakes.coverage import owns_level, owns_slanted
 from lessons.mistakes.shelf import RULES
 from lessons.small_scenes import triangle_scene
 
-NAMES = ("from 0 to 1", "from 1 to 2", "from 2 to 0")
+NAMES = ("E2, from 0 to 1", "E0, from 1 to 2", "E1, from 2 to 0")
+"""Of the edges as the picture names them: each is opposite to the vertex of its number."""
 SIZE = (12, 9)
 INWARD = "E(x, y) = a x + b y + c is positive on the left of an edge that runs from one vertex to the next."
 

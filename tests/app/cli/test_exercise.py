@@ -47,7 +47,7 @@ def test_a_teachers_file_is_validated_and_asked(tmp_path: Path) -> None:
     assert run_program("exercise", "validate", path).stdout == f"{path}: valid: Own; numbers, 1 point\n"
     assert ", seed 0)" in run_program("exercise", "show", path).stdout
     checked = run_program("exercise", "check", path, answered(tmp_path, 'answer = "4/2"\n'))
-    assert checked.stdout == "Understood:\n2\n1 of 1 point: 1 of 1 numbers right\n"
+    assert checked.stdout == "Understood:\n2\n1 of 1 point: right\n"
 
 
 def test_attempts_of_a_user_are_kept_exported_and_imported(
