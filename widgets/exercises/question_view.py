@@ -286,13 +286,14 @@ class QuestionView(QWidget):
             # Behind those that stay: what comes and goes must not push another one under the pointer.
             self.step_button,
             self.twin_button,
-            self.lesson_button,
         ):
             buttons.addWidget(button)
         self._foot = QWidget(self)
         foot = column_layout(self._foot, 8, margins=(4, 0, 4, 0))
         foot.addWidget(self._result)
         foot.addLayout(buttons)
+        # In a line of its own: what comes and goes above must not put another one under the pointer.
+        foot.addWidget(self.lesson_button, 0, Qt.AlignmentFlag.AlignLeft)
         middle = row_layout()
         middle.addStretch(1)
         middle.addWidget(self._foot, 1000)

@@ -361,10 +361,12 @@ class LessonView(QWidget):
         self._feedback = feedback
         if feedback is not None:
             self._keep_height()
-        self.feedback.setVisible(feedback is not None)
+        # A task is judged while it is done: what is said must not move a listing that is typed below.
+        is_task = self._record is not None and bool(self._record.task) and self.answer is None
+        self.feedback.setVisible(feedback is not None or (is_task and not self._is_presenting))
         self._follow_theme()
+        self.feedback.setText("" if feedback is None else "\n".join(feedback.sentences))
         if feedback is not None:
-            self.feedback.setText("\n".join(feedback.sentences))
             set_role(self.feedback, {True: "good", False: "bad", None: ""}[feedback.is_right])
             announce(self, self.feedback.text())
             self.feedback_shown.emit()

@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 LISTING_LINES, PRESENTED_LINES = 10, 4
 """Lines of the listing that are seen whole, and the same while presenting: the formula goes before it."""
+LEAST_LINES = 2
+"""Lines of the listing that are enough to see the line of the step; in less room the column scrolls to more."""
 SENTENCE_LINES = 3
 """Height of the sentence, in lines of text."""
 VARIABLE_LINES = 6
@@ -208,7 +210,8 @@ class InspectorColumn(QTabWidget):
         code = max(rows, min(lines, seen - details))
         if code > seen:
             # In large type or a low window: it scrolls to the line of the step, which else would be out of sight.
-            code = max(self.listing.height_of(PRESENTED_LINES, False), seen)
+            least = PRESENTED_LINES if seen < self.listing.height_of(LEAST_LINES, False) else LEAST_LINES
+            code = max(self.listing.height_of(least, False), seen)
         for widget, height in (
             (self._step_pane, step),
             (self.listing, code),

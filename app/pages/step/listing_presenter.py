@@ -396,7 +396,8 @@ class ListingPresenter(QObject):
         edited = with_edit(document, Edit(*self._place, text, known.name if known is not None else ""))
         if edited.edits == document.edits:
             self._show_right()
-            self.outcome.tell()
+            if document.edits:
+                self.outcome.tell()
         elif not edited.edits:
             self._session.edit(edited)
         else:

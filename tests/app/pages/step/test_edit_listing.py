@@ -190,6 +190,12 @@ def test_marks_follow_what_is_typed_though_it_does_not_run(window: MainWindow) -
     assert editor.text == original("line", "bresenham").source
     assert not editor.has_problem
     assert not pane.reset_button.isVisible()
+    # Taken back by hand there is no first difference, either.
+    QTest.keyClicks(editor, "=")
+    wait(lambda: editor.has_problem)
+    QTest.keyClick(editor, Qt.Key.Key_Backspace)
+    wait(lambda: not editor.has_problem)
+    assert pane.message.text() == ""
 
 
 def test_what_does_not_run_is_kept_in_a_state_and_in_other_scenes(window: MainWindow, tmp_path: Path) -> None:

@@ -5,6 +5,7 @@ from pathlib import Path
 from threading import Event
 
 import pytest
+from PySide6.QtCore import QPoint
 from pytestqt.qtbot import QtBot
 
 from app.pages.exercises import answers
@@ -24,11 +25,15 @@ def test_a_listing_that_is_edited_is_a_task(window: MainWindow, qtbot: QtBot, tm
     walk = opened(window, qtbot, tmp_path, 5, lesson_text("shared-edges"))
     pane, box = window.page.column.code, window.page.compare_view.buffer_box
     window.run_action("edit_line")
-    editor, right = pane.editor, pane.editor.text
+    window.page.settle()
+    editor, right, place = pane.editor, pane.editor.text, window.page.column.mapTo(window, QPoint())
     editor.begin(right.replace("value > 0 or", "value > 0 and"), 1)
     editor.text_typed.emit(editor.text)
     settled(window, qtbot)
     assert walk.standings[5] is Standing.OPEN
+    assert walk.view.feedback.text().startswith("Not yet")
+    window.page.settle()
+    assert window.page.column.mapTo(window, QPoint()) == place, "moved under who types"
     editor.begin(right.replace("value > 0 or", "value >= 0 or"), 1)
     editor.text_typed.emit(editor.text)
     qtbot.waitUntil(lambda: walk.standings[5] is Standing.DONE)
