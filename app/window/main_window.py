@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, Slot
+from PySide6.QtCore import QEvent, Qt, Slot
 from PySide6.QtGui import QCloseEvent, QContextMenuEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QLabel, QStatusBar
 
@@ -354,12 +354,15 @@ class MainWindow(ActionWindow):
         event.setAccepted(self.help.open_menu(event.globalPos(), widget))
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
-        """Take files."""
+        """Take files: they are read, so none may be moved, which some desktops propose."""
         if event.mimeData().hasUrls():
-            event.acceptProposedAction()
+            event.setDropAction(Qt.DropAction.CopyAction)
+            event.accept()
 
     def dropEvent(self, event: QDropEvent) -> None:
         """Open the file that was dropped."""
+        event.setDropAction(Qt.DropAction.CopyAction)
+        event.accept()
         paths = [url.toLocalFile() for url in event.mimeData().urls() if url.isLocalFile()]
         if len(paths) > 1:
             self.notices.tell(f"One file at a time: opening {Path(paths[0]).name}.")

@@ -46,12 +46,17 @@ def drop(window: MainWindow, *paths: Path) -> None:
     """Drag files over the window and drop them."""
     data = QMimeData()
     data.setUrls([QUrl.fromLocalFile(str(path)) for path in paths])
-    place, actions, buttons = QPointF(200, 200), Qt.DropAction.CopyAction, Qt.MouseButton.LeftButton
+    place, buttons = QPointF(200, 200), Qt.MouseButton.LeftButton
+    actions = Qt.DropAction.MoveAction | Qt.DropAction.CopyAction
     modifiers = Qt.KeyboardModifier.NoModifier
     enter = QDragEnterEvent(place.toPoint(), actions, data, buttons, modifiers)
     QApplication.sendEvent(window, enter)
     assert enter.isAccepted()
-    QApplication.sendEvent(window, QDropEvent(place, actions, data, buttons, modifiers))
+    dropped = QDropEvent(place, actions, data, buttons, modifiers)
+    QApplication.sendEvent(window, dropped)
+    assert enter.dropAction() == dropped.dropAction() == Qt.DropAction.CopyAction, (
+        "the file stays where it is"
+    )
 
 
 @pytest.fixture
