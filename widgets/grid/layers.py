@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from core.explain.number_text import full_text, is_short
+from core.explain.number_text import full_text, is_remainder, is_short
 from core.records.arrays import is_alike
 
 # What a pixel grid shows: a named array with its kind, unit and range, and its values as text.
@@ -23,6 +23,7 @@ BufferKind = Literal["scalar", "signed", "color", "weights", "ids", "bool"]
 KINDS: tuple[BufferKind, ...] = ("scalar", "signed", "color", "weights", "ids", "bool")
 MINUS = "\u2212"
 NAN = "NaN"
+ABOUT_ZERO = "≈0"
 NO_VALUE = "\u2013"
 """What stands for the value of a pixel that has none."""
 
@@ -51,6 +52,8 @@ class GridBuffer:
     """Column and row in the picture of the lower left pixel: the rulers count from there."""
     known: NDArray[np.bool_] | None = field(default=None, repr=False)
     """(H, W) bool, where there is a value yet; other cells are empty. None: everywhere."""
+    is_weight: bool = False
+    """Whether it adds up to 1 with others: in its cells, what only rounding keeps from 0 is said to be about 0."""
 
     def __post_init__(self) -> None:
         shape = self.values.shape
@@ -107,6 +110,8 @@ class GridBuffer:
         items = value if isinstance(value, list) else [value]
         if self.kind == "ids" and items[0] < 0:
             return [MINUS]
+        if self.is_weight and width is not None and is_remainder(items[0]):
+            return [ABOUT_ZERO]
         return [number_text(item, digits, width) for item in items]
 
     def text_at(self, column: int, row: int, digits: int = 4) -> str:

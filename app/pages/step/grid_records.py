@@ -124,7 +124,14 @@ def grid_buffer(track: BufferTrack, rows_done: int, origin: tuple[int, int]) -> 
     scale = track.value_range if track.kind in ("scalar", "signed", "count") else None
     title = track.name.replace("color", "colour")
     return GridBuffer(
-        track.name, values, KINDS[track.kind], range=scale, title=title, origin=origin, known=known
+        track.name,
+        values,
+        KINDS[track.kind],
+        range=scale,
+        title=title,
+        origin=origin,
+        known=known,
+        is_weight=track.name.startswith("weight "),
     )
 
 

@@ -63,6 +63,14 @@ def test_row_0_is_the_first_row_of_the_array() -> None:
     assert buffer.text_at(0, 1) == "3"
 
 
+def test_a_cell_says_where_rounding_alone_keeps_a_weight_from_0() -> None:
+    values = np.array([[1.9e-17, 0.0, 0.25, 1e-12]])
+    buffer = GridBuffer("weight 1", values, is_weight=True)
+    assert [buffer.lines_at(column, 0, 4, 8)[0] for column in range(4)] == ["≈0", "0", "0.25", "1e−12"]
+    assert buffer.text_at(0, 0) == "1.9e−17", "as it is, where it is asked for"
+    assert GridBuffer("edge 1", values).lines_at(0, 0, 4, 8) == ["1.9e−17"], "its sign decides"
+
+
 @pytest.mark.parametrize(
     ("values", "kind", "message"),
     [
