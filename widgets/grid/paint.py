@@ -154,13 +154,14 @@ def _number_size(
 
 
 def _has_small_wholes(buffer: GridBuffer) -> bool:
-    """Return whether a buffer is a table of whole numbers of two digits, beyond 0 and 1, or infinite."""
+    """Return whether a buffer is a table of whole numbers of two digits: counts, or also beyond 0 and 1."""
     if buffer.kind != "scalar":
         return False
+    is_count = buffer.values.dtype.kind in "iu"
     values = buffer.values[~np.isnan(buffer.values)]
     finite = values[np.isfinite(values)]
     is_small = (finite == np.rint(finite)).all() and (np.abs(finite) < _SMALL_WHOLE).all()
-    return bool(is_small and (len(finite) < len(values) or (finite > 1).any()))
+    return bool(is_small and (is_count or len(finite) < len(values) or (finite > 1).any()))
 
 
 def _characters(cell: float, size: int, theme: Theme) -> int:
