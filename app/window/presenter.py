@@ -101,7 +101,7 @@ class Presenter(QObject):
         window.pages.show_bar(False)
         for each in window.pages.made:
             each.set_presenting(True)
-        self._is_whole_width = page.current_view() in WHOLE_WIDTH
+        self._is_whole_width = self._takes_all(page.current_view())
         page.show_panes(() if self._is_whole_width else PRESENTED_PANES)
         window.appearance.set_theme("presenter-dark" if current_theme().is_dark else "presenter")
         page.lessons.read()
@@ -111,10 +111,15 @@ class Presenter(QObject):
     @Slot(str)
     def _follow_view(self, name: str) -> None:
         """Give some views the whole width, and the step its words again beside another view."""
-        is_whole_width = name in WHOLE_WIDTH
+        is_whole_width = self._takes_all(name)
         if self.is_presenting and is_whole_width != self._is_whole_width:
             self._is_whole_width = is_whole_width
             self._window.page.show_panes(() if is_whole_width else PRESENTED_PANES)
+
+    def _takes_all(self, view: str) -> bool:
+        """Return whether a view has the whole width, but for a lesson and the listing that is changed in it."""
+        page = self._window.page
+        return view in WHOLE_WIDTH and not (page.lessons.is_before_a_class and page.column.wants_listing())
 
     @Slot(object)
     def _take_page(self, page: Page) -> None:

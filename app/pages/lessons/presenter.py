@@ -96,6 +96,11 @@ class LessonPresenter(QObject):
         return self.walk is not None and self.walk.answers.is_open
 
     @property
+    def is_before_a_class(self) -> bool:
+        """Whether a lesson is presented: what is to be read goes before what could be clicked."""
+        return self._page.is_presenting and self.walk is not None
+
+    @property
     def is_working(self) -> bool:
         """Whether a lesson is being read, or something in it is being worked on."""
         is_opening = self._painted.isActive() or self._job.is_running

@@ -159,7 +159,7 @@ class InspectorColumn(QTabWidget):
         self.rows.setVisible(not (self._folds_listing and self._is_presenting))
         self.tabBar().setVisible(not self._is_alone)
         self.sentence.setVisible(not self._is_alone)
-        self._step_pane.setVisible(not (self._is_alone and self._wants_listing()))
+        self._step_pane.setVisible(not (self._is_alone and self.wants_listing()))
         self.fit()
 
     def show_formula(self, formula: Formula | None, is_new_stage: bool) -> None:
@@ -198,7 +198,7 @@ class InspectorColumn(QTabWidget):
         self.sentence.setMinimumHeight(SENTENCE_LINES * line)
         told = 0 if self._is_alone else max(SENTENCE_LINES * line, self._longest) + 4
         step, details = told + self._tallest, VARIABLE_LINES * (line + 6)
-        if self._is_alone and self._wants_listing():
+        if self._is_alone and self.wants_listing():
             step = details = 0
         self._parts.activate()  # What has just come or gone above has moved the pane.
         above = self._step_pane.y() + step
@@ -226,7 +226,7 @@ class InspectorColumn(QTabWidget):
             code += head
             self.rows.setSizes([code, max(self.rows.height() - code - self.rows.handleWidth(), details)])
 
-    def _wants_listing(self) -> bool:
+    def wants_listing(self) -> bool:
         """Return whether the listing goes before all else in front of a class: it is to be changed."""
         return self._is_presenting and not self._folds_listing
 
@@ -239,7 +239,7 @@ class InspectorColumn(QTabWidget):
         formula = max(self._tallest, self.formula.heightForWidth(inner))
         told = max(SENTENCE_LINES * line, self.sentence.heightForWidth(inner))
         whole, part = self.tabBar().sizeHint().height() + told + 4 + formula, formula
-        if self._wants_listing():
+        if self.wants_listing():
             least, most = (
                 self.listing.height_of(PRESENTED_LINES, False),
                 self.listing.height_of(LISTING_LINES),

@@ -37,6 +37,8 @@ class ListingOutcome(QObject):
         """Offer the way to the first difference, and look for the mistake that the edit is."""
         from app.session.named_mistakes import outcome_of
 
+        if self._page.lessons.is_before_a_class:
+            return  # The lesson says it, and the listing needs the room.
         self._pane.show_message(FIRST)
         self._naming.call(partial(outcome_of, self._session.document))
 

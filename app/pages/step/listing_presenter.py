@@ -188,7 +188,7 @@ class ListingPresenter(QObject):
             if moment.is_predicting or moment.is_asked_about:
                 self._end_editing()
             self._set_side(A)
-        elif self._hides_right:
+        elif self._hides_right or self._page.lessons.is_before_a_class:
             self._set_side(B)
         if self._pane.is_editing and self._place is not None:
             from app.session.listing_runs import edit_of
