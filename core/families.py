@@ -111,10 +111,12 @@ NOT_FOR: Mapping[str, Mapping[str, str]] = {
     "own shaders": {
         "shading": "The scene's own shaders do it. The pane Shaders (L) takes them off.",
         "shadow": "The scene's own shaders light it, and look into no shadow map.",
+        "environment": "The scene's own shaders light it, and look into no environment map.",
         "object_culling": "The scene's vertex shader moves the corners: the boxes of its meshes do not hold them.",
         "depth_test_time": "A shader may discard a fragment, so depth is tested after it has run.",
     },
     "no shadow": {"shadow": "No light of this scene casts shadows: only a directional light can."},
+    "no mirror": {"environment": "No mesh of this scene has a mirror share and another mesh to show."},
     "no curves": dict.fromkeys(
         ("tessellation", "segments", "curve_tolerance"), "This scene has no curves and no patches of curves."
     ),
@@ -139,11 +141,19 @@ def facts(scene: AnyScene | None) -> list[str]:
         "no texture": all(texture is None for texture in textures),
         "own shaders": scene.program is not None,
         "no shadow": isinstance(scene, ClipScene) or scene.casting_light < 0,
+        "no mirror": not mirrors_of(scene),
         "no curves": not has_curves(scene),
         "no bones": not has_bones(scene),
         "no lights": isinstance(scene, ClipScene),
     }
     return [fact for fact, is_so in holds.items() if is_so]
+
+
+def mirrors_of(scene: AnyScene) -> tuple[int, ...]:
+    """Return the meshes that mirror others: one alone has nothing to show."""
+    if isinstance(scene, ClipScene) or len(scene.meshes) == 1:
+        return ()
+    return tuple(number for number, mesh in enumerate(scene.meshes) if mesh.material.mirror > 0)
 
 
 def has_curves(scene: AnyScene) -> bool:

@@ -167,6 +167,12 @@ class ResolvedSettings:
         return method if method.traits and "shadow" in self.method("shading").takes else None
 
     @cached_property
+    def environment(self) -> Method | None:
+        """How mirrors find what is around them, where light is computed at fragments; ``None``: nothing mirrors."""
+        method = self.method("environment")
+        return method if method.traits and "environment" in self.method("shading").takes else None
+
+    @cached_property
     def shades(self) -> str:
         """Which fragments are shaded, see `core.depth.early_depth`: all where visibility tests no depth in a buffer.
 

@@ -54,9 +54,11 @@ class Material:
     diffuse: float = 0.88
     specular: float = 0.25
     shininess: float = 32.0
+    mirror: float = 0.0
+    """Share of what it mirrors that is added to its colour, see the family ``environment``."""
 
     def __post_init__(self) -> None:
-        for name in ("ambient", "diffuse", "specular"):
+        for name in ("ambient", "diffuse", "specular", "mirror"):
             if not 0 <= getattr(self, name) <= 1:
                 raise ValueError(f"material {name} must be from 0 to 1, got {getattr(self, name)}")
         if not 0 < self.shininess <= 10000:

@@ -3,9 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-import numpy as np
-
-from core.scene import AnyScene, Camera, ClipScene, Mesh, Scene
+from core.scene import AnyScene
 from lessons.assembled_scenes import (
     clipped_segment,
     line_strip,
@@ -19,7 +17,7 @@ from lessons.bone_scenes import bent_bar, blended_bar, twisted_tube
 from lessons.curve_scenes import arch, ball, cracked, curve_in_depth, folded_glass, hill
 from lessons.layer_scenes import crossing_glass, fan, four_layers, intersecting
 from lessons.run_place import FIRST_STEP, RunPlace
-from lessons.shapes import FACE_COLORS, cube, knot, linear_color, sphere, teapot, torus
+from lessons.shapes import cube, knot, sphere, teapot, torus
 from lessons.window_scenes import (
     bar_and_wire,
     circle_of_bars,
@@ -27,23 +25,22 @@ from lessons.window_scenes import (
     moving_bar,
     pentagram,
     polygon_with_holes,
+    shared_edge,
+    single_triangle,
     two_triangles,
     weiler_atherton,
-    window_triangle,
 )
 from lessons.world_scenes import (
-    TEACHING_SIZE,
     box_in_light,
     boxes_around,
     lit_floor,
+    mirror_cube,
+    near_plane,
     of_mesh,
-    sun,
     textured_floor,
     two_boxes,
     z_fighting,
 )
-
-RED_GREEN_BLUE = np.array([[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0]])
 
 
 @dataclass(frozen=True)
@@ -66,36 +63,6 @@ class BuiltInScene:
     def card(self) -> str:
         """What its card and its menu entry say."""
         return f"{self.description} {self.opens.sentence}"
-
-
-def single_triangle() -> ClipScene:
-    """One triangle with red, green and blue corners, the first nearest and the last farthest."""
-    clip = window_triangle([8, 57, 22.5], [6, 15.5, 42], [0.2, 0.5, 0.8], [1, 1.5, 2.5], TEACHING_SIZE)
-    return ClipScene(clip[None], RED_GREEN_BLUE[None], TEACHING_SIZE)
-
-
-def shared_edge() -> ClipScene:
-    """Two triangles with an edge in common that runs through pixel centres."""
-    x, y = np.array([8.5, 52.5, 12.5, 58.5]), np.array([40.5, 8.5, 6.5, 42.5])
-    corners = np.array([[0, 2, 1], [0, 1, 3]])
-    clip = np.stack(
-        [window_triangle(x[row], y[row], np.full(3, 0.5), np.ones(3), TEACHING_SIZE) for row in corners]
-    )
-    colors = np.stack([np.tile(linear_color(color), (3, 1)) for color in FACE_COLORS[:2]])
-    return ClipScene(clip, colors, TEACHING_SIZE, shared=corners)
-
-
-def near_plane() -> Scene:
-    """One triangle that reaches from far in front of the camera to behind it."""
-    triangle = Mesh(
-        positions=np.array([[-1.6, 0.1, -5.0], [1.2, 0.3, -3.0], [0.5, -0.2, 1.5]]),
-        triangles=np.array([[0, 2, 1]]),
-        normals=np.tile([0.0, 1.0, 0.0], (3, 1)),
-        colors=RED_GREEN_BLUE,
-        name="near-plane crosser",
-    )
-    camera = Camera(eye=np.array([0.0, 1.0, 0.0]), target=np.array([0.0, 0.7, -3.0]), near=0.5, far=20.0)
-    return Scene((triangle,), camera, (sun(),), TEACHING_SIZE)
 
 
 CATALOGUE = (
@@ -291,6 +258,14 @@ CATALOGUE = (
         box_in_light,
         RunPlace("shade", "light_share == 0 and triangle < 2", "compare"),
         {"shadow": "map", "map_size": "16", "shadow_bias": "11"},
+    ),
+    BuiltInScene(
+        "mirror-cube",
+        "Mirror on a floor",
+        "A mirror looks into six pictures drawn from its middle: what it shows does not meet the floor it stands on.",
+        mirror_cube,
+        RunPlace("shade", "column == 30 and row == 24 and mirror == 1", "look-up"),
+        {"environment": "cube", "cull": "back"},
     ),
     BuiltInScene(
         "cube",

@@ -22,6 +22,9 @@ MARK = ("######", "#.....", "#####.", "#.....", "#.....", "#.....")
 """The letter F, rows from the top: it looks different however a texture is turned or mirrored."""
 
 
+RED_GREEN_BLUE = np.array([[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0]])
+
+
 def linear_color(srgb: str) -> Floats:
     """Return ``#rrggbb`` as (4,) float64 linear colour with alpha 1."""
     return np.append(linear_light(np.array([int(srgb[k : k + 2], 16) for k in (1, 3, 5)]) / 255), 1.0)

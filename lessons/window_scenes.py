@@ -11,7 +11,8 @@ from core.records.arrays import Floats, checked
 from core.records.depth_table import DepthTable, depths_of_text
 from core.records.motion import Motion
 from core.scene import ClipScene
-from lessons.shapes import FACE_COLORS, linear_color
+from lessons.shapes import FACE_COLORS, RED_GREEN_BLUE, linear_color
+from lessons.world_scenes import TEACHING_SIZE
 
 # Triangles given in the window: bars that overlap in a circle.
 
@@ -221,3 +222,20 @@ def moving_bar() -> ClipScene:
         [window_triangle(x, y, np.full(3, 0.5), np.ones(3), (24, 16)) for x, y in places.transpose(0, 2, 1)]
     )
     return ClipScene(clip, np.tile(linear_color(FACE_COLORS[1]), (2, 3, 1)), (24, 16))
+
+
+def single_triangle() -> ClipScene:
+    """One triangle with red, green and blue corners, the first nearest and the last farthest."""
+    clip = window_triangle([8, 57, 22.5], [6, 15.5, 42], [0.2, 0.5, 0.8], [1, 1.5, 2.5], TEACHING_SIZE)
+    return ClipScene(clip[None], RED_GREEN_BLUE[None], TEACHING_SIZE)
+
+
+def shared_edge() -> ClipScene:
+    """Two triangles with an edge in common that runs through pixel centres."""
+    x, y = np.array([8.5, 52.5, 12.5, 58.5]), np.array([40.5, 8.5, 6.5, 42.5])
+    corners = np.array([[0, 2, 1], [0, 1, 3]])
+    clip = np.stack(
+        [window_triangle(x[row], y[row], np.full(3, 0.5), np.ones(3), TEACHING_SIZE) for row in corners]
+    )
+    colors = np.stack([np.tile(linear_color(color), (3, 1)) for color in FACE_COLORS[:2]])
+    return ClipScene(clip, colors, TEACHING_SIZE, shared=corners)

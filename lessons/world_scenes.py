@@ -7,7 +7,7 @@ from math import atan
 import numpy as np
 
 from core.scene import Camera, DirectionalLight, Material, Mesh, PointLight, Scene
-from lessons.shapes import FACE_COLORS, cube, floor, linear_color, plates
+from lessons.shapes import FACE_COLORS, RED_GREEN_BLUE, cube, floor, linear_color, plates
 
 TEACHING_SIZE = (64, 48)
 """Raster of the small cases in pixels: every pixel can be pointed at."""
@@ -110,6 +110,32 @@ def box_in_light() -> Scene:
     box = replace(cube(1.0), transform=lift, colors=colors, name="box")
     camera = Camera(np.array([-3.0, 5.0, 5.0]), np.array([-0.4, 0.2, 0.0]), near=1.0, far=30.0)
     return Scene((lying, box), camera, (DirectionalLight(np.array([-1.0, -1.2, -0.6])),), TEACHING_SIZE)
+
+
+def near_plane() -> Scene:
+    """One triangle that reaches from far in front of the camera to behind it."""
+    triangle = Mesh(
+        positions=np.array([[-1.6, 0.1, -5.0], [1.2, 0.3, -3.0], [0.5, -0.2, 1.5]]),
+        triangles=np.array([[0, 2, 1]]),
+        normals=np.tile([0.0, 1.0, 0.0], (3, 1)),
+        colors=RED_GREEN_BLUE,
+        name="near-plane crosser",
+    )
+    camera = Camera(eye=np.array([0.0, 1.0, 0.0]), target=np.array([0.0, 0.7, -3.0]), near=0.5, far=20.0)
+    return Scene((triangle,), camera, (sun(),), TEACHING_SIZE)
+
+
+def mirror_cube() -> Scene:
+    """Return a mirror of side 1 on a chequered floor, with a box before it: no reflection is as near as these."""
+    lift, beside = np.eye(4), np.diag([0.5, 0.5, 0.5, 1.0])
+    lift[1, 3], beside[:3, 3] = 0.5, (0.9, 0.25, 0.9)
+    dark, bright = np.tile([0.02, 0.02, 0.02, 1.0], (24, 1)), np.tile(linear_color(FACE_COLORS[1]), (24, 1))
+    matte, shiny = Material(specular=0.0), Material(specular=0.0, mirror=0.85)
+    mirror = replace(cube(1.0), transform=lift, colors=dark, material=shiny, name="mirror")
+    box = replace(cube(1.0), transform=beside, colors=bright, material=matte, name="box")
+    camera = Camera(np.array([-1.3, 1.7, 3.0]), np.array([0.25, 0.35, 0.0]), near=0.5, far=40.0)
+    below = replace(floor(4.0, 4.0), material=matte)
+    return Scene((below, mirror, box), camera, (sun(),), TEACHING_SIZE, linear_color("#86A8DC"))
 
 
 def sun() -> DirectionalLight:

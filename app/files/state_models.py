@@ -64,6 +64,7 @@ class MaterialRecord(Record):
     diffuse: float
     specular: float
     shininess: float
+    mirror: float = 0.0
 
 
 class MeshRecord(Record):

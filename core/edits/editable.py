@@ -199,6 +199,7 @@ NOT_EDITABLE = {
     ),
     "wrap": "Its listing stands below that of the texture filter: edit it there.",
     "shadow": "It compares with a picture of the whole scene that is drawn first.",
+    "environment": "It looks into pictures of the whole scene that are drawn first.",
     "visibility": "It orders triangles, or casts rays, for the whole picture at once.",
     "antialiasing": _FIXED,
     "resolve_filter": "Its listing takes all samples of a pixel.",

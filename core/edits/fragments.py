@@ -224,6 +224,8 @@ def shading_is_passed_over(settings: Settings, scene: Any) -> str:
         return "The shaders of the scene light it."
     if settings.shadow != "none":
         return "Shadows change what arrives of a light at each fragment: choose shadow none."
+    if settings.environment != "none":
+        return "Reflections are added to what the text computes: choose environment none."
     return ""
 
 

@@ -87,8 +87,9 @@ class LitMesh:
 
 
 def is_phong(settings: Settings) -> bool:
-    """Return whether fragments are lit, and none of them looks for a shadow."""
-    return settings.shading == "phong" and resolve(settings).shadow is None
+    """Return whether fragments are lit, and none of them looks for a shadow or mirrors what is around it."""
+    resolved = resolve(settings)
+    return settings.shading == "phong" and resolved.shadow is None and resolved.environment is None
 
 
 def even_mesh(context: DrawContext) -> LitMesh | None:

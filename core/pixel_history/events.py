@@ -203,7 +203,10 @@ def _fragment_events(
         if corner_count in (2, 3):
             chain.append(Link("interpolate", "weights", _weights(candidates, fragments, k)))
         share = None if fragments.light_share is None else float(fragments.light_share[k])
-        shaded = Link("shade", "color", {"color": fragments.color[k], "light_share": share})
+        added = None if fragments.lit_color is None else (fragments.color[k] - fragments.lit_color[k])[:3]
+        shaded = Link(
+            "shade", "color", {"color": fragments.color[k], "light_share": share, "mirrored": added}
+        )
         is_left = passage.passes and hidden_by[k] < 0
         if shaded_ones != "all" and not passage.passes:
             shaded = Link("shade", "not-shaded", {})

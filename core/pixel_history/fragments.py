@@ -161,6 +161,8 @@ class PixelFragments:
     """(F,) float64, what arrives of the light that casts shadows; ``None``: no shadow is looked for."""
     from_front: bool = False
     """Whether they are blended from front to back."""
+    lit_color: Floats | None = None
+    """(F, 4) float64, the colours before what is mirrored is added; ``None``: nothing mirrors."""
 
     @property
     def in_turn(self) -> list[int]:
@@ -215,6 +217,7 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
         turn,
         surface.light_share,
         from_front,
+        surface.lit_color,
     )
 
 

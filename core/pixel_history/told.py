@@ -3,6 +3,8 @@
 Every key has one sentence in a table; a number goes through the same text rules as everywhere else.
 """
 
+from collections.abc import Sequence
+
 from core.explain.number_text import exact_text, pair_text, steps_apart
 from core.pixel_history.fragments import Link, PixelEvent, PixelHistory
 from core.pixel_history.told_coverage import COVERAGE, Sentence, Values, has_area
@@ -120,11 +122,18 @@ def _weights(values: Values) -> str:
 
 
 def _shaded(values: Values) -> str:
-    """Return the colour, and whether the light that casts shadows arrives."""
-    text, share = "colour " + ", ".join(exact_text(c) for c in values["color"]), values.get("light_share")
+    """Return the colour, what of it is mirrored, and whether the light that casts shadows arrives."""
+    text, share = "colour " + _channels(values["color"]), values.get("light_share")
+    mirrored = values.get("mirrored")
+    if mirrored is not None and any(mirrored):
+        text += f", of which {_channels(mirrored)} is mirrored"
     if share in (None, 1.0):
         return text
     return f"{text}; in the shadow" if share == 0 else f"{text}; {exact_text(share)} of the light arrives"
+
+
+def _channels(color: Sequence[float]) -> str:
+    return ", ".join(exact_text(channel) for channel in color)
 
 
 def _would(values: Values) -> str:

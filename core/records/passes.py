@@ -10,7 +10,11 @@ if TYPE_CHECKING:
     from core.scene import AnyScene
     from core.settings import Settings
 
-ASKS_FOR_PASSES = {"shadow": ("map", "map-average"), "depth_test_time": ("prepass",)}
+ASKS_FOR_PASSES = {
+    "shadow": ("map", "map-average"),
+    "environment": ("cube",),
+    "depth_test_time": ("prepass",),
+}
 """By family, the methods that ask for a pass."""
 
 
@@ -19,7 +23,7 @@ class PlannedPass:
     """What is drawn first. ValueError where it needs a pass itself: the first picture would never come."""
 
     name: str
-    """What it is for: ``shadow-map`` or ``prepass``."""
+    """What it is for: ``shadow-map``, ``environment`` or ``prepass``."""
     title: str
     """What it shows, as ``What light 0 sees``."""
     scene: "AnyScene"

@@ -243,6 +243,12 @@ class _Terms:
     power: Floats
 
 
+def unit_directions(position: Floats, normal: Floats, eye: Floats) -> tuple[Floats, Floats]:
+    """Return the unit normals and unit directions to the eye, (F, 3) each, as `light_surface` has them."""
+    points = _points(position, normal, eye, False)
+    return np.stack(points.normal, axis=1), np.stack(points.to_eye, axis=1)
+
+
 def _points(position: Floats, normal: Floats, eye: Floats, two_sided: bool) -> _Points:
     """Make the normals and the directions to the eye unit, and turn normals if wanted."""
     where = planes(position)

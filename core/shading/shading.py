@@ -58,7 +58,7 @@ LightOf = Callable[[Floats, Floats, Integers], tuple[Floats, Floats]]
     source="Phong 1975; Pellacini, Phong shading",
     exact_for="surfaces whose normals are the interpolated ones",
     breaks_where="silhouettes: they stay polygons. Light can come from below the surface",
-    takes=("shadow",),
+    takes=("shadow", "environment"),
     traits="fragments",
 )
 def phong(

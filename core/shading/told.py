@@ -42,7 +42,7 @@ def _without_light(step: StepValues) -> Formula:
     return formula_of(in_channel("colour", color, channel).equals(in_channel("albedo", albedo, channel)))
 
 
-@explains("shade.lit.albedo")
+@explains("shade.lit|mirror.albedo")
 def albedo(step: StepValues) -> Said:
     """The colour before lighting."""
     return f"{step.pixel_name}: its albedo is the interpolated colour, {vector_text(step.vector('albedo'))}."
@@ -147,14 +147,23 @@ def diffuse_sum(step: StepValues) -> Said:
 @explains("shade.*.product")
 def product(step: StepValues) -> Said:
     """Albedo times diffuse light plus specular light."""
-    color = step.vector("color")
-    text = f"{step.pixel_name}: its colour is {vector_text(color)}, albedo times diffuse light plus specular light."
+    text = f"{step.pixel_name}: its colour is {vector_text(step.vector('color'))}, {LIT}."
+    return text, sum_of_light(step, "color")
+
+
+LIT = "albedo times diffuse light plus specular light"
+
+
+def sum_of_light(step: StepValues, name: str) -> Formula:
+    """Return the colour ``name``, or ``own_color``, as what the light gives."""
+    color = step.vector(name)
     channel = outstanding(color[:3])
     base, diffuse, specular = (
         in_channel(name.removesuffix("_light"), step.vector(name), channel)
         for name in ("albedo", "diffuse_light", "specular_light")
     )
-    return text, formula_of(in_channel("colour", color, channel).equals(base * diffuse + specular))
+    word = "colour" if name == "color" else "own"
+    return formula_of(in_channel(word, color, channel).equals(base * diffuse + specular))
 
 
 shows(

@@ -18,6 +18,7 @@ from core.records.steps import Steps, ends_of
 from core.scene import ClipScene, Scene, Texture
 from core.shading.lighting import blinn_phong, plain_lights, plain_material, trace_lighting
 from core.shading.shading import LightRule, shaded_color, textured_albedo, unlit_color
+from core.shading.traced_environment import is_mirror, mirror_columns, mirror_listings, mirror_operations
 from core.shading.traced_shadows import SHADOW_BUFFERS, shadow_columns, shadow_listings, shadow_operations
 from core.stages.fragment_color import has_program
 from core.stages.fragments import edited_slopes_at
@@ -161,7 +162,7 @@ def _slope_columns(source: TraceSource, chosen: Integers) -> dict[str, np.ndarra
     return columns
 
 
-KINDS = ("plain", "textured", "lit", "textured-lit")
+KINDS = ("plain", "textured", "lit", "textured-lit", "mirror", "textured-mirror")
 """Kinds of rows: what has a texture stands at odd numbers."""
 
 
@@ -179,7 +180,7 @@ def trace_shade(source: TraceSource) -> StageTrace:
     triangle = source.triangle_of_fragment
     steps = Steps(
         kinds=KINDS,
-        kind=is_textured + 2 * np.full(len(fragments), is_lit),
+        kind=is_textured + 2 * (int(is_lit) + is_mirror(source, mesh)),
         operations=_operations(source, has_normals),
         triangle_ends=ends_of(triangle),
         group_ends=ends_of(fragments.primitive, fragments.row),
@@ -231,6 +232,11 @@ def _columns(source: TraceSource, mesh: Integers) -> dict[str, np.ndarray]:
         columns["diffuse_light"], columns["specular_light"] = surface.diffuse_light, surface.specular_light
     if "normal" in layout:
         columns |= _light_columns(source, mesh)
+        ends = values[:, layout["position"]], values[:, layout["normal"]]
+        if surface.lit_color is not None:
+            columns["own_color"] = surface.lit_color
+        for chosen, of_mirror in mirror_columns(source, mesh, *ends):
+            _add_columns(columns, chosen, of_mirror)
     return columns
 
 
@@ -318,6 +324,8 @@ def _operations(source: TraceSource, has_normals: bool) -> dict[str, tuple[Opera
         "textured": (*texture, color),
         "lit": (Operation("albedo", "", (), ("albedo",)), *light, *product),
         "textured-lit": (*texture, *light, *product),
+        "mirror": (Operation("albedo", "", (), ("albedo",)), *light, *mirror_operations(source)),
+        "textured-mirror": (*texture, *light, *mirror_operations(source)),
     }
 
 
@@ -333,14 +341,16 @@ def _listings(source: TraceSource, has_normals: bool) -> dict[str, Listing]:
     light = _light_listing(source) if has_normals else product
     of_light = ("normal", "cosines", "power", "diffuse", "specular", "interpolated")
     of_operation = {**dict.fromkeys(of_light, light), "product": product, **shadow_listings(source)}
+    of_operation |= mirror_listings(source)
     unlit, albedo = listing(unlit_color), listing(textured_albedo)
-    found = {"plain": unlit, "textured": texture, "lit": product, "textured-lit": texture}
-    found |= {"textured.color": unlit, "textured.albedo": albedo, "textured-lit.albedo": albedo}
+    found = {"plain": unlit, "lit": product, "mirror": product, "textured.color": unlit}
+    textured = ("textured", "textured-lit", "textured-mirror")
+    found |= dict.fromkeys(textured, texture) | {f"{kind}.albedo": albedo for kind in textured}
     if uses_mipmaps(texture_filter):
-        for kind in ("textured", "textured-lit"):
+        for kind in textured:
             found[f"{kind}.slopes"] = listing(SLOPE_LISTINGS[slope_kind(source)])
             found |= dict.fromkeys((f"{kind}.lengths", f"{kind}.lod"), listing(level_of_detail))
-    for kind in ("lit", "textured-lit"):
+    for kind in ("lit", "textured-lit", "mirror", "textured-mirror"):
         found |= {f"{kind}.{name}": chosen for name, chosen in of_operation.items()}
     return found
 
@@ -376,6 +386,11 @@ def _buffers(
     if "diffuse_light" in columns:
         tracks.append(track("diffuse light", columns["diffuse_light"]))
         tracks.append(track("specular light", columns["specular_light"]))
+    if "seen" in columns:
+        chosen = np.flatnonzero(columns["mirror"] >= 0)
+        empty, seen = np.full((*source.raster.shape, 4), np.nan), np.ones((len(chosen), 4))
+        seen[:, :3] = columns["seen"][chosen]
+        tracks.append(BufferTrack("seen in the mirror", empty, chosen, place[chosen], seen, "color"))
     for name, title in SHADOW_BUFFERS.items():
         if name in columns and columns[name].size == len(rows):
             tracks.append(track(title, columns[name].reshape(-1), "scalar"))

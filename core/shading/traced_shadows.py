@@ -50,7 +50,6 @@ def shadow_columns(source: TraceSource, position: Floats) -> dict[str, np.ndarra
         "lamp_stored": tests.stored,
         "texel_is_lit": tests.is_lit,
         "lamp_bias": np.full(count, lamp.bias),
-        "map_side": np.full(count, source.settings.map_size),
     }
 
 

@@ -4,10 +4,11 @@ Everything behind, from culling to the last byte, takes the scene that is return
 put in front of the first matrix of each corner, see `core.transform.traced`.
 """
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from core.families import has_curves
-from core.scene import AnyScene, ClipScene, Scene
+from core.scene import AnyScene, ClipScene, Mesh, Scene
 from core.settings import Settings
 
 if TYPE_CHECKING:
@@ -33,6 +34,11 @@ def before_matrices(scene: AnyScene, settings: Settings) -> AnyScene:
     if isinstance(scene, Scene) and any(mesh.deformation is not None for mesh in scene.meshes):
         scene = _deformed(scene, settings)
     return tessellated(scene, settings).scene if has_curves(scene) else scene
+
+
+def still(mesh: Mesh) -> Mesh:
+    """Return a mesh with the vertices and triangles that it has now: a pass cuts and bends nothing anew."""
+    return replace(mesh, patches=None, deformation=None, rest=None) if mesh.makes_positions else mesh
 
 
 def _deformed(scene: Scene, settings: Settings) -> Scene:

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from core.families import mirrors_of
 from core.records.arrays import Floats, Integers
 from core.resolved import resolve
 from core.scene import AnyScene, ClipScene, Scene, Texture
@@ -41,9 +42,11 @@ class Surface:
     specular_light: Floats | None
     """(F, 3) float64, light that it mirrors."""
     color: Floats
-    """(F, 4) float64, albedo * diffuse_light + specular_light; alpha is the albedo's."""
+    """(F, 4) float64, albedo * diffuse_light + specular_light, and what is mirrored; alpha is the albedo's."""
     light_share: Floats | None = None
     """(F,) float64 from 0 to 1, what arrives of the light that casts shadows; ``None``: no shadow is looked for."""
+    lit_color: Floats | None = None
+    """(F, 4) float64, the colour before what is mirrored is added; ``None``: nothing mirrors."""
 
 
 def shade_fragments(
@@ -64,7 +67,7 @@ def shade_fragments(
     values : (F, K) float64, interpolated
     slopes : (4, F) float64, see ``core.stages.fragments``; ``None``: the texture filter needs none
     """
-    albedo = _albedo(scene, settings, layout, mesh, values, slopes)
+    albedo = albedo_of(scene, settings, layout, mesh, values, slopes)
     if "normal" in layout:
         # Here and below: only what is lit, or textured, waits for these imports.
         from core.shading.shading import shade
@@ -78,8 +81,14 @@ def shade_fragments(
             found = shadow_tests(scene, settings, position)
             share = None if found is None else found.share
         diffuse, specular = light(scene, settings.shading, mesh, position, values[:, layout["normal"]], share)
-        color = shade(albedo, diffuse, specular)
-        return Surface(albedo, diffuse, specular, color, share)
+        color, own = shade(albedo, diffuse, specular), None
+        if resolve(settings).environment is not None and mirrors_of(scene):
+            from core.stages.environment import mirror_looks
+
+            own = color.copy()
+            for chosen, looks in mirror_looks(scene, settings, mesh, position, values[:, layout["normal"]]):
+                color[chosen, :3] += scene.meshes[mesh[chosen[0]]].material.mirror * looks.color
+        return Surface(albedo, diffuse, specular, color, share, own)
     if "diffuse_light" not in layout:
         return Surface(albedo, None, None, albedo)
     from core.shading.shading import shade
@@ -88,13 +97,13 @@ def shade_fragments(
     return Surface(albedo, diffuse, specular, shade(albedo, diffuse, specular))
 
 
-def _albedo(
+def albedo_of(
     scene: AnyScene,
     settings: Settings,
     layout: dict[str, slice],
     mesh: Integers,
     values: Floats,
-    slopes: Floats | None,
+    slopes: Floats | None = None,
 ) -> Floats:
     """Return the colours (F, 4) of fragments before they are lit; see `shade_fragments`."""
     if isinstance(scene, ClipScene) and scene.texture is not None:

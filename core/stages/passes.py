@@ -7,6 +7,7 @@ from importlib import import_module
 import numpy as np
 
 from core.depth.early_depth import LEFT
+from core.families import mirrors_of
 from core.records.arrays import Floats, read_only
 from core.records.passes import PlannedPass
 from core.resolved import resolve
@@ -14,6 +15,8 @@ from core.scene import AnyScene, Camera, DirectionalLight, Mesh, Scene
 from core.settings import Settings
 from core.shading.shadow_rays import RayHits
 from core.shading.shadows import BIAS_STEPS, Lamp, MapTests
+from core.stages.before_matrices import before_matrices, still
+from core.stages.environment import environment_passes
 from core.transform.matrices import camera_axes, projection, viewport, world_to_camera
 from core.transform.vertex_stage import place_meshes
 
@@ -25,6 +28,7 @@ def planned_passes(scene: AnyScene, settings: Settings) -> tuple[PlannedPass, ..
     """Return what is drawn before the picture, in this order; empty for most scenes."""
     if scene.program is not None:
         return ()
+    scene = before_matrices(scene, settings)
     found, shadow = [], resolve(settings).shadow
     if (
         isinstance(scene, Scene)
@@ -35,8 +39,12 @@ def planned_passes(scene: AnyScene, settings: Settings) -> tuple[PlannedPass, ..
         light = scene.lights[scene.casting_light]
         assert isinstance(light, DirectionalLight)
         found.append(shadow_pass(scene.meshes, light, scene.casting_light, settings.map_size))
+    environment = resolve(settings).environment
+    if isinstance(scene, Scene) and environment is not None and environment.traits == "map":
+        for number in mirrors_of(scene):
+            found += environment_passes(scene, settings, number)
     if resolve(settings).shades == LEFT:
-        plain = replace(settings, shading="unlit", depth_test_time="late")
+        plain = replace(settings, shading="unlit", depth_test_time="late", shadow="none", environment="none")
         found.append(PlannedPass("prepass", "Depth alone", scene, plain))
     return tuple(found)
 
@@ -74,7 +82,7 @@ def shadow_pass(meshes: tuple[Mesh, ...], light: DirectionalLight, number: int, 
 
     Half a texel is left free around them.
     """
-    sides = Scene(meshes, light_camera(meshes, light, size), (), (size, size))
+    sides = Scene(tuple(map(still, meshes)), light_camera(meshes, light, size), (), (size, size))
     return PlannedPass("shadow-map", f"What light {number} sees", sides, Settings(shading="unlit"))
 
 

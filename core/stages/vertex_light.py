@@ -96,20 +96,20 @@ def _light_sides(scene: Scene, shading: str, side: Integers) -> tuple[Floats, di
     position = world.world.T[:3].take(vertex, axis=1)
     mesh = world.mesh_of_vertex.take(vertex)
     itself, in_front = np.arange(len(vertex))[:, None], np.zeros(len(vertex), bool)
-    parts = _given_values(scene.meshes, vertex[:, None])
+    parts = given_values(scene.meshes, vertex[:, None])
     parts |= _shade_corners(scene, shading, mesh, position.T, normal.T, itself, in_front)
-    values, layout = _side_by_side(parts)
+    values, layout = side_by_side(parts)
     return read_only(values[:, 0]), layout
 
 
 def _light_corners(scene: Scene, shading: str, corner: Integers, behind: Flags) -> CornerValues:
     """Return the values at the corners (3, P) of triangles that are lit as faces."""
     world, corners = place_meshes(scene.meshes), corner.T
-    parts = _given_values(scene.meshes, corners)
+    parts = given_values(scene.meshes, corners)
     parts |= _shade_corners(
         scene, shading, world.mesh_of_vertex, world.world[:, :3], world.normals, corners, behind
     )
-    values, layout = _side_by_side(parts)
+    values, layout = side_by_side(parts)
     rows = values.reshape(-1, values.shape[2])
     return CornerValues(rows, layout, own_corners(np.arange(len(corners))))
 
@@ -136,7 +136,7 @@ def _shade_corners(
     return shaded
 
 
-def _side_by_side(parts: dict[str, Floats]) -> tuple[Floats, dict[str, slice]]:
+def side_by_side(parts: dict[str, Floats]) -> tuple[Floats, dict[str, slice]]:
     """Return parts (P, C, k) side by side as (P, C, K), and where each stands."""
     ends = np.cumsum([values.shape[2] for values in parts.values()])
     layout = {
@@ -173,7 +173,7 @@ def _facets(meshes: tuple[Mesh, ...]) -> tuple[Floats, Floats]:
     return read_only(np.ascontiguousarray(outward)), read_only(np.ascontiguousarray(centroid))
 
 
-def _given_values(meshes: tuple[Mesh, ...], vertex: Integers) -> dict[str, Floats]:
+def given_values(meshes: tuple[Mesh, ...], vertex: Integers) -> dict[str, Floats]:
     """Return colours and texture coordinates at vertices (P, C), as (P, C, k); the latter if there is a texture."""
     parts = {"color": _vertex_values(meshes, "colors", (1.0, 1.0, 1.0, 1.0)).take(vertex, axis=0)}
     if any(mesh.texture for mesh in meshes):
@@ -188,12 +188,15 @@ def light(
     position: Floats,
     normal: Floats,
     share: Floats | None = None,
+    eye: Floats | None = None,
 ) -> tuple[Floats, Floats]:
     """Return diffuse and specular light (F, 3) at surface points of meshes (F,), by the rule of a method of shading.
 
-    ``share`` (F,) of the light that casts shadows arrives; ``None``: all of it.
+    ``share`` (F,) of the light that casts shadows arrives; ``None``: all of it. They are seen from places ``eye``
+    (F, 3); ``None``: from the camera.
     """
-    eye, material = viewpoint(scene.camera, position), material_of(scene, mesh)
+    material = material_of(scene, mesh)
+    eye = viewpoint(scene.camera, position) if eye is None else eye
     rule = table.get("shading", shading).function
     if isinstance(rule, LightRule):
         return rule.light(position, normal, eye, scene.lights, material)

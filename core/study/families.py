@@ -17,6 +17,7 @@ from core.lines.measured import LINE
 from core.lines.measured_clipping import LINE_CLIPPING
 from core.methods import table
 from core.settings import families
+from core.shading.measured_environment import ENVIRONMENT
 from core.shading.measured_shadows import SHADOW
 from core.study.bands import BANDS
 from core.study.family import StudyFamily
@@ -44,6 +45,7 @@ OWN = (
     TEMPORAL,
     SHADING,
     SHADOW,
+    ENVIRONMENT,
     VISIBILITY,
     LOOPS,
     LISTS,

@@ -11,6 +11,7 @@ from core.framebuffer.measured import BLENDING
 from core.interpolation.measured import AFFINE
 from core.lines import measured_clipping
 from core.shading.measured import HIGHLIGHT, NORMALS
+from core.shading.measured_environment import NEAR
 from core.study.cases import Atlas, ExperimentInfo, StabilityMap
 from core.study.experiment import Experiment, experiments
 from core.study.record import Axis, Outcome, StudyCancelledError, Verdict
@@ -42,6 +43,7 @@ FRAGMENT_EXPERIMENTS: tuple[Experiment, ...] = (
     MINIFICATION,
     HIGHLIGHT,
     NORMALS,
+    NEAR,
     BY_DISTANCE,
     BY_RANGE,
     ORTHOGRAPHIC,

@@ -21,7 +21,7 @@ from core.explain.formulas import (
 from core.explain.number_text import spoken, vector_text
 from core.explain.records import Formula
 from core.explain.step_values import Said, StepValues, explains
-from core.explain.steps import VariableText, given, shows
+from core.explain.steps import VariableText, given, hides, shows
 from core.explain.term_latex import Written
 from core.records.terms import Term
 from core.records.words import joined
@@ -276,7 +276,7 @@ def mix(step: StepValues) -> Said:
     return text, formula_of(letter_of(color, channel).equals(mixed_in))
 
 
-@explains("shade.textured|textured-lit.albedo")
+@explains("shade.textured|textured-lit|textured-mirror.albedo")
 def albedo(step: StepValues) -> Said:
     """Texture colour times interpolated colour, if the corners have one."""
     values, texture = step.vector("albedo"), step.vector("texture_color")
@@ -345,3 +345,4 @@ shows(
         "albedo": VariableText("albedo", "Colour before lighting: linear red, green, blue, alpha."),
     },
 )
+hides("shade.plain|lit|mirror", ("uv", "texture_size"))

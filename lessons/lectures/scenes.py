@@ -9,8 +9,8 @@ import numpy as np
 from core.scene import Camera, ClipScene, Mesh, Scene
 from core.shaders.presets import preset_program
 from lessons.run_place import RunPlace
-from lessons.scenes import CATALOGUE, RED_GREEN_BLUE, BuiltInScene
-from lessons.shapes import checkerboard, cube, linear_color
+from lessons.scenes import CATALOGUE, BuiltInScene
+from lessons.shapes import RED_GREEN_BLUE, checkerboard, cube, linear_color
 from lessons.small_scenes import SPLIT_SQUARE, pixel_segments, segment_scene, triangles
 from lessons.window_scenes import (
     equal_depths,

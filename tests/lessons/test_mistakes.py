@@ -16,6 +16,7 @@ from lessons.mistakes import (
     hit_lists,
     planes,
     presenting,
+    reflections,
     scan_conversion,
     scan_lines,
     shadows,
@@ -61,6 +62,7 @@ def test_names_are_unique_and_unknown_ones_refused() -> None:
         textures,
         shadows,
         hit_lists,
+        reflections,
     }
     formulas = {
         bones,
@@ -69,6 +71,7 @@ def test_names_are_unique_and_unknown_ones_refused() -> None:
         cutting,
         depths,
         planes,
+        reflections,
         scan_conversion,
         scan_lines,
         shadows,
@@ -80,6 +83,7 @@ def test_names_are_unique_and_unknown_ones_refused() -> None:
     assert both == {
         *("front-and-back-swapped", "octant-of-centre", "sorted-after-division"),
         *("list-not-sorted", "sorted-farthest-first"),
+        *("reflection-sign", "face-by-signed-largest", "place-not-divided"),
     }
     assert all(SHELF[name].sentence == RULES[name].sentence for name in both)
     assert len(MISTAKES) == count - len(both) + len(SHADERS)

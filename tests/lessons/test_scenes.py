@@ -9,9 +9,10 @@ from core import Settings, render
 from core.coverage.snapping import SUBPIXELS, snap
 from core.scene import ClipScene, Scene
 from core.transform.vertex_stage import transform_vertices
-from lessons.scenes import CATALOGUE, TEACHING_SIZE, built_in_scene, make_scene, scene_names
+from lessons.scenes import CATALOGUE, built_in_scene, make_scene, scene_names
 from lessons.shapes import patches
 from lessons.window_scenes import window_triangle
+from lessons.world_scenes import TEACHING_SIZE
 
 sizes = st.tuples(st.integers(1, 4096), st.integers(1, 4096))
 weights = st.floats(1e-3, 1e3) | st.floats(-1e3, -1e-3)
@@ -74,7 +75,8 @@ def test_the_catalogue():
         "line-strip", "points", "triangle-strip", "polygon", "polygon-holes", "weiler-atherton", "connecting-edges",
         "pentagram", "near-plane", "intersecting", "crossing-glass", "bar-and-wire", "circle-of-bars", "depth-table",
         "four-layers", "two-buffers", "z-fighting", "textured-floor",
-        "lit-floor", "box-in-light", "cube", "boxes-around", "two-boxes", "bent-bar", "twisted-tube", "blended-bar",
+        "lit-floor", "box-in-light", "mirror-cube", "cube", "boxes-around", "two-boxes",
+        "bent-bar", "twisted-tube", "blended-bar",
         "curve", "curve-in-depth", "hill", "diced-hill", "diced-ball", "folded-glass", "cracked-patches",
         "teapot", "sphere", "torus", "knot",
     )  # fmt: skip

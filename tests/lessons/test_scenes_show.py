@@ -11,7 +11,7 @@ from core import Frame, Trace, draw_picture, render
 from core.stages.before_matrices import before_matrices
 from core.tessellation.measured_dice import disc
 from lessons.lectures.scenes import ALL_SCENES
-from lessons.scenes import RED_GREEN_BLUE
+from lessons.shapes import RED_GREEN_BLUE
 
 
 @dataclass
@@ -124,6 +124,9 @@ CLAIMS = {
     "textured-floor": lambda s: unlike(s, interpolation="affine") > 1000,
     "lit-floor": lambda s: (brightest(s), brightest(s, shading="gouraud")) == (0.787, 0.221),
     "box-in-light": lambda s: np.sum(s.column("shade", "light_share") == 0) == 118,
+    "mirror-cube": lambda s: (
+        unlike(s, environment="rays") > 0 and np.sum(s.column("shade", "mirror") == 1) == 449
+    ),
     "cube": lambda s: (s.document.triangle_count, len(np.unique(s.ids() // 2)) - 1) == (12, 3),
     "boxes-around": lambda s: (
         not unlike(s, object_culling="none") and np.sum(s.column("cull", "box_verdict") == "outside") >= 5

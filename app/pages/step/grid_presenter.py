@@ -28,7 +28,7 @@ from app.pages.step.stepping_presenter import SteppingPresenter
 from app.session.document import Document
 from app.session.document_edits import DragGestures
 from app.session.moment import Moment
-from app.session.passes import open_pass, passes_of
+from app.session.passes import open_pass, passes_of, passes_to_open
 from app.session.session import Session
 from core import STAGES
 from core.stages.declared import stage_of
@@ -125,8 +125,9 @@ class PixelMenu(QObject):
         self._add("Remove the breakpoint" if has_breakpoint else "Breakpoint", "breakpoint")
         self._add("Where does this value come from?", "origin")
         self._add("Ask for this value", "ask")
-        for number, planned in enumerate(passes_of(self._session.document)):
-            self._add(f"Open the pass “{planned.title}”", f"pass {number}")
+        planned = passes_of(self._session.document)
+        for number in passes_to_open(self._session.moment, self._pixel) if planned else ():
+            self._add(f"Open the pass “{planned[number].title}”", f"pass {number}")
         self.menu.addSeparator()
         for stage in STAGES[STAGES.index("raster") :]:
             self._add(f"Step here in {stage_of(stage).short_title}", stage)

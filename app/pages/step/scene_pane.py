@@ -149,7 +149,7 @@ def _mesh_outline(scene: Scene) -> list[OutlineGroup]:
                 name,
                 (OutlineValue(name, getattr(mesh.material, name), 0, 10000 if name == "shininess" else 1),),
             )
-            for name in ("ambient", "diffuse", "specular", "shininess")
+            for name in ("ambient", "diffuse", "specular", "shininess", "mirror")
         ]
         groups.append(OutlineGroup(f"mesh/{index}", mesh.name, tuple(rows), is_open=False))
         groups += _deformation_outline(index, mesh)

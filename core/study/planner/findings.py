@@ -17,6 +17,7 @@ from core.pipeline import draw
 from core.records.arrays import Floats, Integers
 from core.records.frame import StageCount
 from core.records.words import counted, noun_of, nouns
+from core.resolved import resolve
 from core.scene import AnyScene, ClipScene, Scene, Texture
 from core.settings import DEFAULTS, WHOLE_NUMBERS, Settings
 from core.stages.before_matrices import before_matrices, tessellated
@@ -156,6 +157,8 @@ class Seen:
     """By depth method, the triangles of which a fragment may be lost, see `far_triangles`."""
     bias: tuple[str, float] | None
     """The shadow bias of the settings, and the share of the lit surface that needs no more; ``None``: no map."""
+    reflection: tuple[float, float] | None
+    """Largest error of a mirrored direction at the corners of mirrors, in degrees and texels; ``None``: no map."""
     texels: float | None
     """Longest step from pixel to pixel in a texture, at the corners of triangles; ``None``: there is none."""
     lean: float | None
@@ -201,6 +204,7 @@ def look(scene: AnyScene, everything: Settings, regions: tuple[tuple[int, int, i
         depth=(float(depth.min()), float(depth.max())) if depth.size else None,
         far=far_triangles(geometry),
         bias=_bias(scene, everything),
+        reflection=_reflection(scene, everything, geometry),
         texels=_longest_step(geometry, scene),
         lean=_lean(geometry),
         highlight=_highlight(scene) if "normal" in primitives.layout else None,
@@ -241,6 +245,10 @@ def facts_of(seen: Seen) -> tuple[Fact, ...]:
         facts.append(
             Fact("bias", f"Lit surface that needs no more than a bias of {bias}", f"{100 * share:.3g} %")
         )
+    if seen.reflection is not None:
+        angle_off, texels = seen.reflection
+        off = f"{angle_off:.3g} degrees, {texels:.3g} texels"
+        facts.append(Fact("reflection", "Largest error of a mirrored direction, at corners of mirrors", off))
     if seen.texels is not None:
         facts.append(Fact("texels", "Longest step of a pixel in a texture", f"{figure(seen.texels)} texels"))
     if seen.lean is not None:
@@ -265,6 +273,14 @@ def _bias(scene: AnyScene, settings: Settings) -> tuple[str, float] | None:
     return WHOLE_NUMBERS["shadow_bias"].label.format(settings.shadow_bias), float(
         share[needed <= settings.shadow_bias].sum()
     )
+
+
+def _reflection(scene: AnyScene, settings: Settings, geometry: Geometry) -> tuple[float, float] | None:
+    if not isinstance(scene, Scene) or resolve(settings).environment is None:
+        return None
+    from core.shading.measured_environment import largest_error  # Only scenes of mirrors wait for it.
+
+    return largest_error(scene, settings, geometry.primitives)
 
 
 def _depth_range(seen: Seen) -> str:

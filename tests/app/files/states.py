@@ -131,7 +131,7 @@ def mesh_scenes(draw):
         draw(st.none() | arrays.arrays(np.float64, (count, 4), elements=st.floats(0, 1))),
         faces=draw(st.none() | st.just(np.array([4, 4]))),
         transform=draw(numbers_of(4, 4)),
-        material=Material(0.25, draw(st.floats(0, 1)), 0.5, draw(st.floats(1, 100))),
+        material=Material(0.25, draw(st.floats(0, 1)), 0.5, draw(st.floats(1, 100)), draw(st.floats(0, 1))),
         name=draw(st.text(characters, max_size=5)),
     )
     projection = draw(st.sampled_from(["perspective", "orthographic"]))

@@ -180,6 +180,9 @@ def traces() -> dict[str, dict[str, Trace]]:
     for name in table.names("shadow")[1:]:
         shaded = Settings(shadow=name, map_size=16)
         windows[f"shadow {name}"] = trace(make_scene("box-in-light"), shaded, 0, (22, 26, 8, 1))
+    for name in table.names("environment")[1:]:
+        mirrored = Settings(environment=name, environment_size=16)
+        windows[f"environment {name}"] = trace(make_scene("mirror-cube"), mirrored, None, (18, 31, 8, 1))
     for name in table.names("skinning"):
         windows[f"bent {name}"] = trace(make_scene("bent-bar"), Settings(skinning=name), 7, (0, 0, *WINDOW))
     windows["blended"] = trace(make_scene("blended-bar"), Settings(), 7, (0, 0, *WINDOW))

@@ -133,7 +133,7 @@ UNMARKED = {
     *("depth.discarded.discard", "depth.tree-hidden.hide"),
     *("edges.homogeneous.keep", "edges.orientation.area", "edges.snapped.window"),
     *("clip.untouched.keep", "bin.whole-image.keep"),
-    *("shade.lit.albedo", "shade.lit.interpolated", "shade.textured-lit.interpolated"),
+    *("shade.lit.albedo", "shade.mirror.albedo", "shade.lit.interpolated", "shade.textured-lit.interpolated"),
     *("depth.cell.depth", "depth.store.depth"),
     *("resolve.mixed.history", "resolve.limited.history"),
     *(f"blend.{kind}.source" for kind in ("over", "additive", "line-over", "line-additive")),

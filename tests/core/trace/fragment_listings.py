@@ -1,5 +1,7 @@
 """The listings of interpolation, textures and shading, executed on the rows."""
 
+from collections.abc import Callable
+from functools import cache
 from itertools import chain
 from typing import Any
 
@@ -15,6 +17,7 @@ from core.methods import table
 from core.shading.lighting import blinn_phong, plain_lights, plain_material
 from core.shading.shading import shaded_color, unlit_color
 from core.shading.traced import slope_kind
+from core.stages.environment import surroundings
 from core.stages.passes import lamp_of
 from core.stages.vertex_light import viewpoint
 from core.textures.footprints import slopes_at, slopes_of_one_value
@@ -56,7 +59,7 @@ def check_shade(traced: Trace) -> None:
     filters = {"nearest": nearest_color, "bilinear": bilinear_color}
     textures, mesh = found.extra["textures"], found.extra["mesh"]
     values, layout = source.interpolated[1], source.geometry.primitives.layout
-    for kind in ("textured", "textured-lit"):
+    for kind in ("textured", "textured-lit", "textured-mirror"):
         for row in rows_of_kind(found, kind):
             pixels = textures[mesh[row]].pixels.astype(np.float64).tolist()
             u, v = values[row, layout["uv"]].tolist()
@@ -70,12 +73,44 @@ def check_shade(traced: Trace) -> None:
         for row in rows_of_kind(found, kind):
             color = shaded_color(c["albedo"][row], c["diffuse_light"][row], c["specular_light"][row])
             assert equal(color, c["color"][row])
+    for kind in ("mirror", "textured-mirror"):
+        mirrored_color = color_of_mirror(traced)
+        for row in rows_of_kind(found, kind):
+            own = shaded_color(c["albedo"][row], c["diffuse_light"][row], c["specular_light"][row])
+            assert equal(own, c["own_color"][row])
+            assert equal(mirrored_color(row, own), c["color"][row])
     for row in rows_of_kind(found, "plain"):
         assert equal(unlit_color(c["albedo"][row]), c["color"][row])
     rows = list(rows_of_kind(found, "textured"))
     assert equal(c["albedo"][rows], c["color"][rows])
     if "normal" in layout:
         check_light(traced, found)
+
+
+def color_of_mirror(traced: Trace) -> Callable[[int, tuple[float, ...]], tuple[float, ...]]:
+    """Return what executes the listing of what is around a mirror at a row, with the fragment's own colour."""
+    source, c = traced.source, traced.stage("shade").columns
+    listed = table.get("environment", source.settings.environment).listing
+    positions = source.interpolated[1][:, source.geometry.primitives.layout.get("position", slice(0))]
+
+    @cache
+    def around_of(mirror: int) -> tuple[Any, ...]:
+        around = surroundings(source.scene, source.settings, mirror)
+        if around.faces:
+            return ([face.pixels.astype(np.float64).tolist() for face in around.faces],)
+
+        def shade(triangle: int, weights: list[float], origin: list[float]) -> list[float]:
+            return around.shade(np.array([triangle]), np.array([weights]), np.array([origin]))[0].tolist()
+
+        return around.triangles.tolist(), around.least, shade, around.background.tolist()
+
+    def color(row: int, own: tuple[float, ...]) -> tuple[float, ...]:
+        given = around_of(int(c["mirror"][row]))
+        first = () if len(given) == 1 else (positions[row].tolist(),)
+        directions = c["normal"][row].tolist(), c["to_eye"][row].tolist()
+        return listed(*first, *directions, *given, own, float(c["mirror_share"][row]))
+
+    return color
 
 
 def slopes_of(traced: Trace, c, row: int):

@@ -101,6 +101,7 @@ LEFT_OUT = (
     "z-fighting",
     "lit-floor",
     "box-in-light",
+    "mirror-cube",
     "boxes-around",
     "two-boxes",
     "teapot",

@@ -59,6 +59,7 @@ AGAINST: Mapping[str, Mapping[str, tuple[str, ...]]] = {
     },
     "depth_test_time": {"early": ("late",), "prepass": ("early",)},
     "shadow": {"map": ("rays",), "map-average": ("map",), "rays": ("map",)},
+    "environment": {"cube": ("rays",), "rays": ("cube",)},
     "presentation": {
         "single": ("double",),
         "double": ("triple",),
@@ -72,6 +73,7 @@ SHOWN_IN = {
     "visibility": ("depth",),
     "depth_test_time": ("shade", "depth"),
     "shadow": ("shade",),
+    "environment": ("shade",),
     "presentation": ("resolve",),
     "history": ("resolve",),
 }

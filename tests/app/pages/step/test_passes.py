@@ -6,10 +6,18 @@ import numpy as np
 import pytest
 
 from app.session.document import STEPPED, open_document
-from app.session.passes import NO_PASS, looked_up_texels, open_pass, passes_of, shaded_row
+from app.session.passes import (
+    NO_PASS,
+    looked_into,
+    looked_up_texels,
+    open_pass,
+    passes_of,
+    passes_to_open,
+    shaded_row,
+)
 from app.session.session import Session
 from app.views.pass_view import PassBeside
-from core import Settings
+from core import Settings, render
 from core.stages.passes import drawn_depth
 from lessons.scenes import make_scene
 
@@ -33,8 +41,8 @@ def test_the_map_stands_beside_shade_with_the_texel_of_the_pixel(qtbot):
     at = shaded_row(session.moment)
     assert beside.is_wanted(session.moment)
     assert beside.grid.buffer().values.shape == (16, 16)
-    assert looked_up_texels(session.moment, at) == [tuple(stage.columns["lamp_texels"][at][0].tolist())]
-    assert beside.grid.accessibleDescription() == f"Looked up: {looked_up_texels(session.moment, at)[0]}."
+    assert looked_up_texels(session.moment, at, 0) == [tuple(stage.columns["lamp_texels"][at][0].tolist())]
+    assert beside.grid.accessibleDescription() == f"Looked up: {looked_up_texels(session.moment, at, 0)[0]}."
     session.set_predicting(True)
     assert shaded_row(session.moment) == -1
 
@@ -60,6 +68,52 @@ def test_a_pass_opens_with_its_texel_pinned_and_undo_leads_back(qtbot):
     assert (session.cursor, session.pin) == of_pass
 
 
+def mirror_session(**settings) -> Session:
+    scene = replace(make_scene("mirror-cube"), size=(32, 24))
+    chosen = Settings(environment="cube", environment_size=16, fill="bounding-box", **settings)
+    return Session(open_document(scene, "Mirror", settings=chosen))
+
+
+def test_a_mirror_shows_the_face_that_it_looks_into_and_opens_it_at_its_texel(qtbot):
+    session = mirror_session(shadow="map")
+    beside = PassBeside(session)
+    qtbot.addWidget(beside.widget)
+    stage = session.trace.stage("shade")
+    session.set_stage("shade")
+    rows = np.flatnonzero(stage.columns["mirror"] == 1)
+    for face in np.unique(stage.columns["face"][rows]).tolist():
+        row = int(rows[stage.columns["face"][rows] == face][-1])
+        session.set_pin(tuple(stage.pixel[row].tolist()))
+        at = shaded_row(session.moment)
+        number = looked_into(session.moment, at)
+        assert number == 1 + stage.columns["face"][at], "the shadow map is the first pass"
+        texels = looked_up_texels(session.moment, at, number)
+        assert texels == [tuple(texel) for texel in stage.columns["face_texels"][at].tolist()]
+        beside.refresh(session.moment)
+        planned = passes_of(session.document)[number]
+        assert np.array_equal(beside.grid.buffer().values, render(planned.scene).color[..., :3])
+        assert beside.grid.accessibleName() == f"Environment map: {planned.title}"
+        assert passes_to_open(session.moment, session.pin) == [0, number]
+    before = session.document
+    open_pass(session)
+    assert (session.document.scene, session.cursor.stage) == (planned.scene, "blend")
+    assert session.pin == texels[0]
+    session.undo()
+    assert session.document is before
+
+
+def test_beside_the_mirror_the_shadow_map_is_shown_or_the_first_face(qtbot):
+    for settings, expected in (({"shadow": "map"}, "Shadow map"), ({}, "Environment map")):
+        session = mirror_session(**settings)
+        beside = PassBeside(session)
+        qtbot.addWidget(beside.widget)
+        session.set_stage("shade")
+        session.set_pin((30, 1))
+        beside.refresh(session.moment)
+        assert beside.grid.accessibleName().startswith(expected)
+        assert passes_to_open(session.moment, (30, 1)) == ([0] if settings else [])
+
+
 def test_without_a_pass_there_is_a_sentence(qtbot):
     session = session_of(Settings(fill="bounding-box"))
     before = session.document
@@ -74,7 +128,7 @@ def test_a_large_map_is_stepped_around_the_texel(qtbot):
     stage = session.trace.stage("shade")
     row = int(np.flatnonzero(stage.columns["light_share"] == 0)[0])
     session.set_pin(tuple(stage.pixel[row].tolist()))
-    texel = looked_up_texels(session.moment, shaded_row(session.moment))[0]
+    texel = looked_up_texels(session.moment, shaded_row(session.moment), 0)[0]
     open_pass(session)
     assert session.document.scene.size == (1024, 1024)
     assert session.pin == texel

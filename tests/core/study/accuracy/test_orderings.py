@@ -257,6 +257,18 @@ def test_shadow() -> None:
     assert wrong[0] > 1000 > wrong[11] > wrong[55] == 0
 
 
+def test_environment() -> None:
+    # The corners of a flat mirror of side 1 lie 0.68 beside its middle, at the middles of the last pixels: look-ups are
+    # off by atan(0.68 / d) of 90 degrees, whatever the map; rays by nothing.
+    beside = np.hypot(23, 23) / 48
+    for distance, size in ((1, 64), (4, 64), (4, 128), (128, 64)):
+        found = run("environment", distance=distance, map=size)
+        off = np.arctan(beside / distance) / (np.pi / 2) * size
+        assert found["cube"].errors["off-texels"] == pytest.approx(off)
+        assert found["rays"].errors["off-texels"] == 0
+        assert found["cube"].counts["texels of the map"] == 6 * size**2
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_visibility(seed: int) -> None:
     # Ray casting compares exactly, on the pixels that every method covers: nothing can be wrong. Its loop over rays and

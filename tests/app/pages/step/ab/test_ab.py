@@ -120,6 +120,7 @@ def test_b_stands_against_the_method_that_a_scene_of_lines_is_about(
         ("four-layers", "shade", {}, {"depth_test_time": "late"}),
         ("four-layers", "shade", {"depth_test_time": "prepass"}, {"depth_test_time": "early"}),
         ("box-in-light", "shade", {}, {"shadow": "rays"}),
+        ("mirror-cube", "shade", {}, {"environment": "rays"}),
         ("two-buffers", "resolve", {}, {"presentation": "double"}),
         ("circle-of-bars", "depth", {}, {"visibility": "bsp"}),
         ("bar-and-wire", "resolve", {}, {"history": "clamped"}),
