@@ -223,7 +223,6 @@ class LessonPresenter(QObject):
         self.attempts.user = found.progress.user
         if found.progress.trouble:
             page.refuse(found.progress.trouble)
-        page.side.show_lesson(walk.task.scroll)
         page.column.show_card(False)
         page.timeline.takes_leaps = False
         recall = found.progress.recall if self._is_kept else found.lesson.part.recall or ""

@@ -209,6 +209,7 @@ class LessonWalk(QObject):
         is_end = number == len(lesson.steps)
         is_open = is_end and lesson.steps[-1].answer is not None and self._is_last_open()
         is_hidden = shown.asked is not None or is_open
+        self._page.side.show_lesson(self.task.scroll)  # Not before there is something to read.
         self.task.begin(self.step, number, made, shown, self._record(), is_hidden=is_hidden)
         self._prepare()
         self.place_changed.emit()
