@@ -60,8 +60,8 @@ RULES = (
         "torn-from-below",
         "The row was counted from the bottom. The screen reads its rows from the top.",
         torn_row,
-        lambda drawing, refresh, rows: (rows - torn_row(drawing, refresh, rows)[0],),
+        lambda drawing, refresh, rows: (rows - 1 - torn_row(drawing, refresh, rows)[0],),
         (20, 16, 16),
-        (24, 16, 16),
+        (20, 15, 3),
     ),
 )
