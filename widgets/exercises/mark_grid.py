@@ -13,7 +13,7 @@ from widgets.basics.accessibility import announce
 from widgets.basics.drawing import Mark, mark_pixmap
 from widgets.basics.theme import Theme, current_theme, text_font
 from widgets.exercises.records import Pixel, Pixels
-from widgets.grid.geometry import GridGeometry, paint_chip
+from widgets.grid.geometry import GridGeometry, outline_text, paint_chip
 from widgets.grid.layers import CellMark, GridBuffer, MaskOverlay, Overlay
 from widgets.grid.names import moved_inside
 from widgets.grid.pixel_grid import PixelGrid
@@ -200,13 +200,14 @@ class MarkGrid(PixelGrid):
         self.show_overlays((*rings, *self._found))
 
     def spoken_description(self) -> str:
-        """Return what a screen reader says of the pixel or point that the keyboard is at."""
+        """Return what a screen reader says of the pixel or point that the keyboard is at; at first, of the outlines."""
         pixel = self.pin()
         if self._points.names:
             return self._points.text(self._points.chosen)
         if not self._is_paintable or pixel is None:
             return super().spoken_description()
-        return f"{self._pixel_text(pixel)}. {len(self._marked)} marked."
+        outlines = "" if self._marked or self._geometry is None else outline_text(self._geometry)
+        return f"{self._pixel_text(pixel)}. {len(self._marked)} marked.{outlines}"
 
     def _pixel_text(self, pixel: Pixel) -> str:
         found = [

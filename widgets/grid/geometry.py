@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QPainter, QPen, QPolygonF, QRegion
 
+from core.explain.number_text import position_text
 from core.records.arrays import cached_property
 from widgets.basics.theme import Theme, text_font
 from widgets.grid.view import GridPlacement, widget_lines
@@ -61,6 +62,8 @@ def towards(start: NDArray[np.float64], goal: NDArray[np.float64]) -> NDArray[np
 
 HANDLE_RADIUS = 5.0
 """Radius of a vertex handle in logical pixels."""
+SPOKEN = 4
+"""Most triangles, segments or points whose corners are said."""
 _GRAB_RADIUS = 11.0
 """How near the pointer must come to a vertex to take it."""
 _LEAST_HANDLE = 0.4
@@ -162,6 +165,18 @@ class GridGeometry:
     def label(self, vertex: int) -> str:
         """Return the name of a vertex: 0, 1 or 2 of the primitive in focus, else nothing."""
         return str(self.focus_vertices.index(vertex)) if vertex in self.focus_vertices else ""
+
+
+def outline_text(geometry: GridGeometry) -> str:
+    """Return the corners of what is outlined, as sentences behind others, where it is little enough to be heard."""
+    said = ""
+    for number, corners in enumerate(
+        geometry.triangles.tolist() if len(geometry.triangles) <= SPOKEN else ()
+    ):
+        places = [position_text(geometry.vertices[corner].tolist()) for corner in dict.fromkeys(corners)]
+        kind = {1: "Point", 2: "Segment", 3: "Triangle"}.get(len(places), "Polygon")
+        said += f" {kind} {geometry.names[number] if geometry.names else number}: {', '.join(places)}."
+    return said
 
 
 def vertex_near(geometry: GridGeometry, placement: GridPlacement, position: QPointF) -> int | None:

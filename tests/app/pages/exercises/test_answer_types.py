@@ -1,5 +1,7 @@
 """Every type of answer, given by mouse and by keyboard alone."""
 
+import re
+
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
@@ -34,6 +36,11 @@ def check_that_pixels_are_marked_by_keyboard_alone(page: Page) -> None:
     shown = page("shared-edge")
     assert shown.question is not None
     shown.grid.setFocus(Qt.FocusReason.TabFocusReason)
+    # Who cannot see the outlines hears them, until something is marked.
+    assert re.match(
+        r"Pixel 0, 8: not marked. 0 marked. Triangle A: \(.*\), \(.*\), \(.*\). Triangle B: \(",
+        shown.grid.spoken_description(),
+    )
     for is_marked in (True, False):
         QTest.keyClick(shown.grid, Qt.Key.Key_Space)
         assert ((0, 8) in shown.grid.marked()) == is_marked
