@@ -88,7 +88,9 @@ def step_table(trace: StageTrace, position: int) -> StepTable | None:
     load_subjects()
     steps = trace.steps
     row = max(steps.row_at(position)[0], 0)
-    for form in _FORMS.get(trace.stage, ()):
+    kind = trace.kind_of(row) if steps.row_count else ""
+    # Of several tables of one unit, that of the present row.
+    for form in sorted(_FORMS.get(trace.stage, ()), key=lambda form: kind not in form.kinds):
         numbers = [k for k, kind in enumerate(steps.kinds) if kind in form.kinds]
         if not numbers:
             continue

@@ -148,8 +148,8 @@ def split(step: StepValues) -> Said:
     """A part too long for one grid."""
     length = step.named("piece_length", "l")
     if isinf(length.value):
-        return f"{_part(step)}, reaches behind the eye: it is split in two."
-    text = f"{_part(step)}, is {length} pixels long by its control points, too long for one grid: it is split in two."
+        return f"{_part(step)}: it reaches behind the eye, so it is split."
+    text = f"{_part(step)}: by its control points it is {length} pixels long, too long for a grid, so it is split."
     return text, formula_of(concludes("split", "split", length.compared(">", named("", GRID_SIDE))))
 
 
@@ -158,8 +158,8 @@ def is_short(step: StepValues) -> Said:
     """A part that one grid holds."""
     length = step.named("piece_length", "l")
     if not length.value <= GRID_SIDE:
-        return f"{_part(step)}, was split {MOST_HALVINGS} times, the limit: it is diced."
-    text = f"{_part(step)}, is {length} pixels long by its control points, short enough for one grid: it is diced."
+        return f"{_part(step)}: it was split {MOST_HALVINGS} times, the limit, so it is diced."
+    text = f"{_part(step)}: by its control points it is {length} pixels long, short enough for a grid, so it is diced."
     return text, formula_of(concludes("split", "dice", length.compared(">", named("", GRID_SIDE))))
 
 
@@ -167,7 +167,7 @@ def is_short(step: StepValues) -> Said:
 def diced(step: StepValues) -> Said:
     """A power of two, so that each part is short enough."""
     parts, side, length = step.whole("parts"), step.number("micro_side"), step.number("part_length")
-    text = f"{_part(step)}, is diced into {counted(parts, 'part')}: by its control points the longest is"
+    text = f"{_part(step)}: it has {counted(parts, 'part')}; by its control points the longest is"
     if parts > 1 and length <= side:
         return f"{text} {spoken(length)} pixels long, and of half as many it was longer than {spoken(side)}."
     return f"{text} {spoken(length)} pixels long."
@@ -300,6 +300,58 @@ shows(
     {f"after_{axis}": VariableText(axis, f"{axis} of the mixture.") for axis in AXES},
 )
 shows("transform.emit", {"after": VariableText("vertex", "x, y, z and w of the vertex.")})
+
+
+# Where curves are cut: what was measured of each piece, and what becomes of it.
+
+
+_MEASURED = {
+    "cut-equal": FilledColumn("n", "Equal steps.", lambda step: step.whole("count"), "count"),
+    "cut-bound": FilledColumn(
+        "δ", "How far one piece may be away, in pixels.", lambda step: step.number("deviation"), "deviation"
+    ),
+    "cut-halve": FilledColumn(
+        "d",
+        "Distance of a control point from the chord, in pixels.",
+        lambda step: step.number("distance"),
+        "distance",
+    ),
+    "cut-split": FilledColumn(
+        "l",
+        "Length of the longest control polygon, in pixels.",
+        lambda step: step.number("piece_length"),
+        "piece_length",
+    ),
+}
+_BECOMES = FilledColumn("becomes", "What becomes of the piece.", lambda step: _becomes(step))
+
+
+def _becomes(step: StepValues) -> str:
+    match step.kind:
+        case "cut-split":
+            return "two parts"
+        case "cut-dice":
+            return counted(step.whole("parts"), "part")
+        case "cut-halve":
+            return "one piece" if step.flag("is_flat") else "two halves"
+    return counted(step.whole("count"), "piece")
+
+
+@tabulates("transform", CUTS.split("|"))
+def cuts_table(trace: StageTrace, rows: Integers, position: int) -> StepTable:
+    """Return what was found of each piece of curves or patches, rows (R,) of a trace, and what becomes of it."""
+    labels = []
+    for row in rows.tolist():
+        explanation = trace.explain(trace.steps.position_after(row))
+        assert explanation is not None
+        step = StepValues(explanation, int(trace.triangle[row]))
+        is_part = step.kind in ("cut-split", "cut-dice")
+        labels.append(_part(step) if is_part else _piece(step) if step.kind == "cut-halve" else _curve(step))
+    kind = trace.kind_of(int(rows[0])).replace("dice", "split")
+    columns = (_MEASURED[kind], _BECOMES)
+    return filled_table(
+        trace, rows, position, "Where it is cut", "Piece", labels, columns, note=" ", grows=True
+    )
 
 
 # The triangle scheme, level by level.

@@ -6,6 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import Settings, render, trace
+from core.explain.step_tables import step_table
+from core.explain.steps import row_sentence
 from core.framebuffer.display import to_display
 from core.stages.before_matrices import before_matrices, tessellated
 from core.tessellation.ball import balls
@@ -49,6 +51,18 @@ def test_the_rows_say_how_each_line_was_split_and_diced():
     rows = [row for row in range(found.steps.row_count) if found.kind_of(row) in ("cut-split", "cut-dice")]
     cuts = tessellated(scene, settings).cuts
     assert [int(parts[row]) for row in rows] == [int(test["parts"]) for cut in cuts for test in cut.tests]
+
+
+def test_a_cut_names_its_part_once_and_fills_the_table_of_cuts():
+    found = trace(hill(), Settings(tessellation="reyes", curve_tolerance=64), 0).stage("transform")
+    row = next(row for row in range(found.steps.row_count) if found.kind_of(row) == "cut-dice")
+    position = found.steps.position_after(row)
+    assert row_sentence(found, position).count("along u") == 1
+    table = step_table(found, position)
+    assert table.rows[row] == "Patch 0, part 0 of 4 along u"
+    assert [cell.text for cell in table.cells[row]] == ["14.69", "8 parts"]
+    last = int(np.flatnonzero(found.steps.kind == found.steps.kinds.index("emit"))[0])
+    assert step_table(found, found.steps.position_after(last)).title.endswith("level by level")
 
 
 def test_hidden_points_are_shaded_too():
