@@ -5,11 +5,15 @@ a trace of the pixel, which would have rows of what is drawn only: most of a his
 (culled, clipped away, missed and by how far), and a source for the fragments alone is as long as their stages here.
 Triangles whose box does not contain the pixel are only counted. Of several samples a pixel each has a history of its
 own; of exact areas ``pieces`` lists which triangle covers how much of the pixel, and this one what is at its centre.
+Where pictures are mixed over time, or edges smoothed, the last event says what the colour was mixed with.
 """
+
+from dataclasses import replace
 
 from core.pixel_history.candidates import PixelCandidates, candidates_at, check_pixel, whole_geometry
 from core.pixel_history.events import list_events, pixel_verdict, triangle_verdict
 from core.pixel_history.fragments import PixelHistory
+from core.pixel_history.resolved import resolved_event
 from core.resolved import resolve
 from core.settings import Settings
 from core.trace import scene_triangle_count
@@ -63,7 +67,9 @@ def why(
         verdict = pixel_verdict(events, counts, resolve(settings).blend_name)
     else:
         verdict = triangle_verdict(events, triangle)
-    return PixelHistory(column, row, triangle, verdict, events, counts, cover_count, sample)
+    history = PixelHistory(column, row, triangle, verdict, events, counts, cover_count, sample)
+    resolved = resolved_event(scene, settings, column, row, history.final) if sample is None else None
+    return history if resolved is None else replace(history, events=(*events, resolved))
 
 
 def _check_sample(sample: int, settings: Settings) -> None:

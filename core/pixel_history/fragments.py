@@ -65,7 +65,7 @@ class PixelEvent:
     """The buffers before anything, the clear, or one triangle at this pixel."""
 
     kind: str
-    """``initial``, ``clear``, ``fragment`` (covered), ``missed`` (not covered), ``culled`` or ``clipped``."""
+    """``initial``, ``clear``, ``fragment`` (covered), ``missed``, ``culled``, ``clipped`` or ``resolve``."""
     chain: tuple[Link, ...]
     """What the stages did with it, up to the one where it ended."""
     triangle: int = -1
@@ -99,7 +99,7 @@ class PixelHistory:
     verdict: Link
     """The first line: what became of the pixel, or of the triangle at this pixel."""
     events: tuple[PixelEvent, ...]
-    """Initial value, clear, then triangles in drawing order."""
+    """Initial value, clear, then triangles in drawing order; last what the colour is mixed with when it is resolved."""
     counts: Mapping[str, int]
     """Triangles that are not listed one by one: how many, by the key of their reason."""
     cover_count: int

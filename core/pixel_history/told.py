@@ -21,7 +21,7 @@ def verdict_sentence(history: PixelHistory, drawn: Nouns = TRIANGLES) -> str:
 def event_title(event: PixelEvent, drawn: Nouns = TRIANGLES) -> str:
     """Return what an event is called: ``Initial value``, ``Clear``, ``Triangle 12, piece 1 of 2``."""
     if event.triangle < 0:
-        return {"initial": "Initial value", "clear": "Clear"}[event.kind]
+        return {"initial": "Initial value", "clear": "Clear", "resolve": "Resolved"}[event.kind]
     clip, name = event.link("clip"), f"{drawn.one.capitalize()} {event.triangle}"
     if clip is not None and clip.values.get("tree_piece"):
         name = f"{name}, piece {clip.values['tree_piece']} of its cuts"
@@ -223,6 +223,27 @@ PLANES = {
     "top": "above the view",
 }
 
+
+def _mixed(values: Values) -> str:
+    share, before = values["share"], counted(values["before"], "picture")
+    history = ", ".join(exact_text(float(value)) for value in values["history"][:3])
+    place = f", looked up at ({exact_text(values['place'][0])}, {exact_text(values['place'][1])})"
+    how = f"{place if values['is_moved'] else ''}{', limited to the colours around' if values['is_limited'] else ''}"
+    return (
+        f"mixed over time: this picture with weight {exact_text(share)}, and what the {before} before it left, "
+        f"({history}){how}, with weight {exact_text(1 - share)}"
+    )
+
+
+def _smoothed(values: Values) -> str:
+    across = (("left of it", "right of it"), ("below it", "above it"))[values["is_horizontal"]]
+    share = values["share"]
+    return (
+        f"beside an edge, so it is smoothed: {exact_text(1 - share)} of its colour and {exact_text(share)} of the "
+        f"pixel {across[values['side'] > 0]}"
+    )
+
+
 SENTENCES: dict[tuple[str, str], Sentence] = {
     ("verdict", "nothing-near"): _nothing_near,
     ("verdict", "all-missed"): _all_missed,
@@ -321,6 +342,18 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
         f"blended with alpha {exact_text(v['alpha'])} behind what is in front of it"
     ),
     ("blend", "shut-out"): lambda v: f"not blended: {_name(v, 'by')} in front of it lets nothing through",
+    ("resolve", "mixed"): _mixed,
+    ("resolve", "begun"): "this picture is the first, so its colour stays",
+    (
+        "resolve",
+        "lost",
+    ): "outside of the picture before, so it has no history, and the colour of this picture stays",
+    ("resolve", "smoothed"): _smoothed,
+    ("resolve", "edge-kept"): "beside an edge, whose ends give it no part of another pixel: unchanged",
+    ("resolve", "no-edge"): lambda v: (
+        f"the luma of it and its four neighbours differs by {exact_text(v['contrast'])}, less than "
+        f"{exact_text(v['threshold'])}: unchanged"
+    ),
 }
 """Stage and key to the sentence, without capital and full stop."""
 

@@ -159,7 +159,7 @@ def _lines(history: PixelHistory, drawn: Nouns) -> Lines:
     """Return one line for every event, and for every reason why triangles are not listed."""
     lines: Lines = []
     for event in history.events:
-        is_fragment = event.kind not in ("initial", "clear")
+        is_fragment = event.kind not in ("initial", "clear", "resolve")
         mark = None
         if is_fragment:
             mark = Mark.REJECTED if event.is_rejected else Mark.COVERED

@@ -56,7 +56,7 @@ def test_no_key_is_without_a_sentence_and_no_sentence_without_a_key():
     stages = {stage for stage, _ in SENTENCES}
     assert stages == {
         *("verdict", "transform", "cull", "clip", "bin", "raster"),
-        *("interpolate", "shade", "depth", "blend"),
+        *("interpolate", "shade", "depth", "blend", "resolve"),
     }
     assert set(COUNTED) == {
         *("back-facing", "front-facing", "degenerate", "behind-eye"),

@@ -12,6 +12,7 @@ from core import ClipScene, Scene, Settings, render, trace
 from core.lines.line_method import has_intensities
 from core.methods import table
 from core.pixel_history import why
+from core.pixel_history.events import FROM_FRONT
 from core.pixel_history.fragments import PixelHistory
 from core.settings import families
 from core.trace import scene_triangle_count
@@ -39,12 +40,17 @@ def some_pixels(scene: ClipScene | Scene, count: int = PIXEL_LIMIT) -> list[tupl
 def check_story(history: PixelHistory, final_triangle: int, has_pale_pixels: bool) -> None:
     """Check that events follow from each other and that the verdict says what the last state says.
 
-    Pale pixels of lines with intensities are blended, but leave depth and triangle as they are.
+    Pale pixels of lines with intensities are blended, but leave depth and triangle as they are. A list of hits begins
+    with what is seen, all else ends with it. Mixing pictures or smoothing edges comes last, and is no part of it.
     """
     assert [event.kind for event in history.events[:2]] == ["initial", "clear"]
     state = history.events[1].after
-    passed = []
+    passed, from_front = [], False
     for event in history.events[2:]:
+        if event.kind == "resolve":
+            assert event is history.events[-1]
+            assert event.before is state
+            continue
         if event.kind != "fragment":
             assert event.is_rejected
             assert event.before is event.out is event.after is None
@@ -55,30 +61,39 @@ def check_story(history: PixelHistory, final_triangle: int, has_pale_pixels: boo
         state = event.after
         if not event.is_rejected:
             passed.append(event.triangle)
-    assert history.final is state
+            from_front |= event.reason.key in FROM_FRONT
+    shown = passed[0 if from_front else -1] if passed else -1
+    last = history.events[-1]
+    assert history.final is (last.after if last.kind == "resolve" else state)
     assert final_triangle == state.triangle
     if has_pale_pixels:
         assert final_triangle in (-1, *passed)
     else:
-        assert final_triangle == (passed[-1] if passed else -1)
+        assert final_triangle == shown
     if history.triangle is None:
-        keys = ("seen", "seen-over", "blended") if passed else ("nothing-near", "all-missed", "all-rejected")
+        keys = ("nothing-near", "all-missed", "all-rejected")
+        if passed:
+            keys = ("seen", "seen-in-front", "from-front") if from_front else ("seen", "seen-over", "blended")
         assert history.verdict.key in keys
         if passed:
-            assert history.verdict.values["triangle"] == passed[-1]
+            assert history.verdict.values["triangle"] == shown
 
 
 def check_pixels(scene: ClipScene | Scene, settings: Settings, pixels: list[tuple[int, int]]) -> None:
     # Of several samples and of areas it is the history of the centre.
     at_centers = replace(settings, antialiasing="none")
     frame, source = render(scene, at_centers), TraceSource(scene, settings)
+    is_mixed = settings.antialiasing in ("fxaa", "temporal")
+    mixed = render(scene, settings) if is_mixed else frame
     drawn = source.settings
     has_pale_pixels = drawn.polygon_mode == "wireframe" and has_intensities(drawn.line)
     for column, row in pixels:
         history = why(source, column, row)
         at = row, column
         check_story(history, int(frame.primitive[at]), has_pale_pixels)
-        assert history.final.color.tobytes() == frame.color[at].tobytes(), (column, row)
+        assert history.final.color.tobytes() == mixed.color[at].tobytes(), (column, row)
+        drawn_color = history.events[-1].before.color if is_mixed else history.final.color
+        assert drawn_color.tobytes() == frame.color[at].tobytes(), (column, row)
         assert frame.depth.dtype.type(history.final.depth) == frame.depth[at], (column, row)
         assert history.cover_count == frame.cover_count[at], (column, row)
         listed = {event.triangle for event in history.events} - {-1}
