@@ -11,7 +11,8 @@ from core.families import has_curves
 from core.records.arrays import Floats
 from core.records.clip_region import region_in_window, region_of_window
 from core.records.deformations import Blend, Skin
-from core.scene import AnyScene, Camera, ClipScene, Mesh, Scene
+from core.records.motion import Motion
+from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Light, Mesh, Scene
 from core.transform.vertex_stage import transform_vertices
 
 # Edits of a scene: each takes a frozen scene and returns the edited one, or says what was wrong.
@@ -121,6 +122,8 @@ def set_value(scene: AnyScene, path: str, value: float, size: tuple[int, int]) -
     Raises ValueError if the scene would not be valid.
     """
     kind, *names = path.split("/")
+    if kind == "motion":
+        return replace(scene, motion=_with_way(scene.motion, names[0], "xyz".index(names[1]), value))
     if isinstance(scene, ClipScene) and kind == "clip-window":
         return _set_clip_window(scene, {path: value}, size)
     if isinstance(scene, ClipScene):
@@ -139,18 +142,38 @@ def set_value(scene: AnyScene, path: str, value: float, size: tuple[int, int]) -
     if kind == "camera":
         return replace(scene, camera=_set_camera(scene.camera, names, value))
     if kind == "light":
-        index, name, axis = int(names[0]), names[1], "xyzrgb".index(names[2]) % 3
-        light = scene.lights[index]
-        vector = np.array(getattr(light, name))
-        vector[axis] = value
-        lights = list(scene.lights)
-        lights[index] = replace(light, **{name: vector})  # type: ignore[arg-type]
+        lights, index = list(scene.lights), int(names[0])
+        lights[index] = _with_light_value(lights[index], names[1], names[2], value)
         return replace(scene, lights=tuple(lights))
     index, name = int(names[0]), names[-1]
     mesh = scene.meshes[index]
     if kind in ("bone", "shape"):
         return _with_mesh(scene, index, _with_deformation(mesh, int(names[1]), value))
     return _with_mesh(scene, index, replace(mesh, material=replace(mesh.material, **{name: value})))
+
+
+def _with_light_value(light: Light, row: str, name: str, value: float) -> Light:
+    """Return a light with a number of a vector replaced, or with whether it may cast shadows."""
+    if isinstance(light, DirectionalLight) and name == "casts_shadow":
+        return replace(light, casts_shadow=bool(value))
+    vector = np.array(getattr(light, row))
+    vector["xyzrgb".index(name) % 3] = value
+    return replace(light, **{row: vector})  # type: ignore[arg-type]
+
+
+def _with_way(motion: Motion | None, what: str, axis: int, value: float) -> Motion | None:
+    """Return a motion with a number of the way of the camera, or of an object, replaced; ``None``: nothing moves."""
+    held = motion or Motion()
+    ways = dict(held.objects)
+    way = list(held.camera if what == "camera" else ways.get(int(what), (0.0, 0.0, 0.0)))
+    way[axis] = value
+    x, y, z = way
+    if what == "camera":
+        found = Motion((x, y, z), held.objects)
+    else:
+        ways[int(what)] = (x, y, z)
+        found = Motion(held.camera, tuple(sorted((number, way) for number, way in ways.items() if any(way))))
+    return None if found.is_rest else found
 
 
 def set_values(scene: AnyScene, values: Mapping[str, float], size: tuple[int, int]) -> AnyScene:

@@ -338,9 +338,7 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
         f"{'its depth was ' if v['is_depth'] else ''}written, later overwritten by {_name(v, 'by')}"
     ),
     ("blend", "blended"): lambda v: f"blended with alpha {exact_text(v['alpha'])}",
-    ("blend", "added"): lambda v: (
-        f"blended with alpha {exact_text(v['alpha'])} behind what is in front of it"
-    ),
+    ("blend", "added"): lambda v: f"blended with alpha {exact_text(v['alpha'])}, from front to back",
     ("blend", "shut-out"): lambda v: f"not blended: {_name(v, 'by')} in front of it lets nothing through",
     ("resolve", "mixed"): _mixed,
     ("resolve", "begun"): "this picture is the first, so its colour stays",

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal, Slot
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QGridLayout, QLabel, QScrollArea, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QCheckBox, QGridLayout, QLabel, QScrollArea, QSizePolicy, QToolButton, QWidget
 
 from widgets.basics.accessibility import KeyClaim
 from widgets.basics.controls import column_layout, text_label
@@ -22,6 +22,8 @@ class OutlineValue:
     value: float
     lowest: float = float("-inf")
     highest: float = float("inf")
+    is_flag: bool = False
+    """Whether it is yes or no, 1 or 0: a box to check instead of a number."""
 
 
 @dataclass(frozen=True)
@@ -111,6 +113,7 @@ class SceneOutline(QScrollArea):
         super().__init__(parent)
         self._groups: tuple[OutlineGroup, ...] = ()
         self._fields: dict[str, TypedValue] = {}
+        self._flags: dict[str, QCheckBox] = {}
         self._labels: dict[str, _RowLabel] = {}
         self._bodies: dict[str, QWidget] = {}
         self._selected = ""
@@ -133,7 +136,11 @@ class SceneOutline(QScrollArea):
         for group in groups:
             for row in group.rows:
                 for value in row.values:
-                    self._fields[f"{row.path}/{value.name}"].show_value(value.value)
+                    path = f"{row.path}/{value.name}"
+                    if value.is_flag:
+                        self._flags[path].setChecked(bool(value.value))
+                    else:
+                        self._fields[path].show_value(value.value)
 
     @Slot(str)
     def show_selection(self, path: str) -> None:
@@ -152,6 +159,10 @@ class SceneOutline(QScrollArea):
         """Return the field of a number by its path ``row/name``."""
         return self._fields[path]
 
+    def flag(self, path: str) -> QCheckBox:
+        """Return the box of a yes or no by its path ``row/name``."""
+        return self._flags[path]
+
     def choose_row(self, path: str) -> None:
         """Select a row as the user."""
         if path != self._selected:
@@ -167,12 +178,15 @@ class SceneOutline(QScrollArea):
         if event.type() == QEvent.Type.FocusIn:
             for group in self._groups:
                 for row in group.rows:
-                    if any(self._fields[f"{row.path}/{v.name}"].edit is watched for v in row.values):
+                    paths = [f"{row.path}/{value.name}" for value in row.values]
+                    fields = [self._flags.get(path) or self._fields[path].edit for path in paths]
+                    if watched in fields:
                         self.choose_row(row.path)
         return super().eventFilter(watched, event)
 
     def _build(self) -> None:
         self._fields.clear()
+        self._flags.clear()
         self._labels.clear()
         self._bodies.clear()
         content = QWidget()
@@ -235,7 +249,8 @@ class SceneOutline(QScrollArea):
             grid.addWidget(label, place, 0)
             if row.values:
                 for column, value in enumerate(row.values, start=1):
-                    grid.addWidget(self._number(row, value, body), place, column)
+                    made = self._flag(row, value, body) if value.is_flag else self._number(row, value, body)
+                    grid.addWidget(made, place, column)
             elif row.note:
                 note = text_label(row.note, body, role="muted", wraps=True)
                 grid.addWidget(note, place, 1, 1, 4)
@@ -255,6 +270,21 @@ class SceneOutline(QScrollArea):
         field.values_committed.connect(self._edit_several)
         self._fields[path] = field
         return field
+
+    def _flag(self, row: OutlineRow, value: OutlineValue, parent: QWidget) -> QCheckBox:
+        path = f"{row.path}/{value.name}"
+        box = QCheckBox(parent)
+        box.setObjectName(path)
+        box.setAccessibleName(row.label)
+        box.setToolTip(row.note or row.label)
+        box.installEventFilter(self)
+        box.clicked.connect(self._check)
+        self._flags[path] = box
+        return box
+
+    @Slot(bool)
+    def _check(self, is_checked: bool) -> None:
+        self.value_edited.emit(self.sender().objectName(), float(is_checked))
 
     @Slot(float)
     def _edit(self, value: float) -> None:
@@ -290,7 +320,13 @@ def _skeleton(groups: Sequence[OutlineGroup]) -> list[object]:
             group.path,
             group.title,
             [
-                (r.path, r.label, r.vertex, r.note, [(v.name, v.lowest, v.highest) for v in r.values])
+                (
+                    r.path,
+                    r.label,
+                    r.vertex,
+                    r.note,
+                    [(v.name, v.lowest, v.highest, v.is_flag) for v in r.values],
+                )
                 for r in group.rows
             ],
         )

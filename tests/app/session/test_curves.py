@@ -8,7 +8,7 @@ from pytestqt.qtbot import QtBot
 
 from app.files.state_files import State, load_state, save_state
 from app.pages.step.grid_overlays import step_mark
-from app.pages.step.scene_pane import outline
+from app.pages.step.scene_values import outline
 from app.session.document import open_document, with_settings
 from app.session.session import Session
 from core import Settings

@@ -5,8 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.pages.step.scene_pane import outline
+from app.pages.step.scene_values import outline
 from core import ClipScene, Scene
+from core.records.motion import Motion
 from core.transform.vertex_stage import transform_vertices
 from lessons.scene_edits import (
     clip_of_window,
@@ -47,7 +48,9 @@ def test_a_dragged_mesh_vertex_lands_in_the_window() -> None:
     assert vertices.window[vertices.corners[0, 0], :2] == pytest.approx([200, 300], abs=1e-6)
 
 
-@pytest.mark.parametrize("name", ["single-triangle", "line-strip", "cube", "textured-floor"])
+@pytest.mark.parametrize(
+    "name", ["single-triangle", "line-strip", "cube", "textured-floor", "bar-and-wire", "box-in-light"]
+)
 def test_every_value_of_the_outline_can_be_typed_back(name: str) -> None:
     scene = make_scene(name)
     typed = _values(outline(scene, None, scene.size))
@@ -55,6 +58,24 @@ def test_every_value_of_the_outline_can_be_typed_back(name: str) -> None:
     for path, value in typed.items():
         again = _values(outline(set_value(scene, path, value, scene.size), None, scene.size))
         assert again[path] == pytest.approx(value)
+
+
+def test_what_moves_between_pictures_is_typed() -> None:
+    scene = set_values(make_scene("cube"), {"motion/camera/x": 0.5, "motion/0/z": -1.0}, (64, 48))
+    assert scene.motion == Motion((0.5, 0.0, 0.0), ((0, (0.0, 0.0, -1.0)),))
+    still = set_values(scene, {"motion/camera/x": 0.0, "motion/0/z": 0.0}, (64, 48))
+    assert still.motion is None
+    with pytest.raises(ValueError, match="motion of camera must be 3 finite numbers"):
+        set_value(scene, "motion/camera/y", np.nan, (64, 48))
+
+
+def test_a_light_may_be_kept_from_casting_shadows() -> None:
+    scene = make_scene("box-in-light")
+    assert isinstance(scene, Scene)
+    assert scene.casting_light == 0
+    dark = set_value(scene, "light/0/shadow/casts_shadow", 0.0, (64, 48))
+    assert isinstance(dark, Scene)
+    assert dark.casting_light == -1
 
 
 def _values(groups: tuple[OutlineGroup, ...]) -> dict[str, float]:

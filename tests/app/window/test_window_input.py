@@ -11,6 +11,7 @@ from pytestqt.qtbot import QtBot
 
 from app.session.document import open_document
 from app.window.main_window import MainWindow
+from core.records.motion import Motion
 from core.records.steps import Level
 from core.scene import ClipScene, Scene
 from lessons.scenes import make_scene
@@ -133,6 +134,27 @@ def test_bad_values_of_a_scene_are_told(window: MainWindow, qtbot: QtBot) -> Non
         field = window.page.outline.field(path)
         told = (window.messages.text.text() if window.messages.isVisible() else "") + field.error_text()
         assert reason in told.replace("_", " ").lower()
+
+
+def test_shadows_and_motion_are_edited_and_undone(window: MainWindow, qtbot: QtBot) -> None:
+    window.page.show_panes(["scene"])
+    session = window.session
+    session.open(open_document(make_scene("box-in-light"), "Box in light"))
+    before, headings = session.document, window.page.outline.findChildren(QToolButton)
+    for heading in headings:
+        if heading.objectName() in ("light/0", "motion"):
+            heading.click()
+    box = window.page.outline.flag("light/0/shadow/casts_shadow")
+    box.setFocus(Qt.FocusReason.TabFocusReason)
+    QTest.keyClick(box, Qt.Key.Key_Space)
+    assert session.document.scene.casting_light == -1
+    type_value(window, qtbot, "motion/camera/x", "1/4")
+    assert session.document.scene.motion == Motion((0.25, 0.0, 0.0))
+    session.undo()
+    session.undo()
+    assert session.document.scene is before.scene
+    assert box.isChecked()
+    assert window.page.outline.field("motion/camera/x").value() == 0
 
 
 def test_a_method_that_the_scene_cannot_serve(window: MainWindow) -> None:

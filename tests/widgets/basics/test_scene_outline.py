@@ -113,3 +113,25 @@ def test_several_numbers_typed_in_one_field_fill_the_row(qtbot, outline) -> None
     type_value(qtbot, outline, "tri0/v0/y", "1; 2")
     assert "expected 1 number, got 2" in outline.field("tri0/v0/y").edit.toolTip()
     assert len(seen) == 1
+
+
+def test_a_box_is_checked_and_follows_without_a_signal(qtbot, outline) -> None:
+    def with_flag(is_on: bool) -> tuple[OutlineGroup, ...]:
+        flag = OutlineRow("light/0/shadow", "casts shadow", (OutlineValue("on", is_on, is_flag=True),))
+        return (OutlineGroup("light", "Light", (flag,)),)
+
+    seen, chosen = [], []
+    outline.value_edited.connect(lambda path, value: seen.append((path, value)))
+    outline.row_selected.connect(chosen.append)
+    outline.show_groups(with_flag(True))
+    box = outline.flag("light/0/shadow/on")
+    assert box.isChecked()
+    assert box.accessibleName() == "casts shadow"
+    box.setFocus()
+    qtbot.keyClick(box, Qt.Key.Key_Space)
+    assert seen == [("light/0/shadow/on", 0.0)]
+    assert chosen == ["light/0/shadow"]
+    outline.show_groups(with_flag(True))
+    assert outline.flag("light/0/shadow/on") is box
+    assert box.isChecked()
+    assert len(seen) == 1
