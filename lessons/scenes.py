@@ -35,6 +35,7 @@ from lessons.world_scenes import (
     boxes_around,
     lit_floor,
     mirror_cube,
+    moving_camera,
     near_plane,
     of_mesh,
     textured_floor,
@@ -243,6 +244,14 @@ CATALOGUE = (
         "Two large triangles with a repeated checkerboard show what perspective does to texture coordinates.",
         textured_floor,
         RunPlace("interpolate", "column == 24 and row == 16", "value-uv"),
+    ),
+    BuiltInScene(
+        "moving-camera",
+        "Floor under a moving camera",
+        "Looked up where each place was in the picture before, the history stays sharp; kept at its pixel, it smears.",
+        moving_camera,
+        RunPlace("resolve", "end", pixel=(20, 15)),
+        {"antialiasing": "temporal", "pictures": "8", "history": "reprojected"},
     ),
     BuiltInScene(
         "lit-floor",

@@ -6,6 +6,7 @@ from math import atan
 
 import numpy as np
 
+from core.records.motion import Motion
 from core.scene import Camera, DirectionalLight, Material, Mesh, PointLight, Scene
 from lessons.shapes import FACE_COLORS, RED_GREEN_BLUE, cube, floor, linear_color, plates
 
@@ -79,6 +80,11 @@ def textured_floor() -> Scene:
     """A floor to the horizon, where affine interpolation and a texture without mipmaps go wrong."""
     camera = Camera(eye=np.array([0.0, 1.6, 4.0]), target=np.array([0.0, 0.4, -2.0]), near=0.2, far=60.0)
     return Scene((floor(),), camera, (sun(),), PICTURE_SIZE)
+
+
+def moving_camera() -> Scene:
+    """The same floor on a small raster, under a camera that moves to the right from picture to picture."""
+    return replace(textured_floor(), size=TEACHING_SIZE, motion=Motion(camera=(0.15, 0.0, 0.0)))
 
 
 def lit_floor() -> Scene:

@@ -80,6 +80,14 @@ def unlike(shown: Shown, **chosen: str) -> int:
     return int((shown.frame().color != shown.frame(**chosen).color).any(axis=2).sum())
 
 
+def smeared(shown: Shown, history: str) -> float:
+    """How far the picture is from the mean of 16 samples of the scene at rest, which no history has."""
+    still = render(
+        replace(shown.document.scene, motion=None), replace(shown.document.settings, antialiasing="ssaa-16")
+    )
+    return float(np.sqrt(np.mean((shown.frame(history=history).color - still.color) ** 2)))
+
+
 FIRST_TABLE = Shown("jubair-z-buffer")
 CLAIMS = {
     "single-triangle": lambda s: (s.document.scene.attributes[0] == RED_GREEN_BLUE).all(),
@@ -122,6 +130,7 @@ CLAIMS = {
     ),
     "z-fighting": lambda s: unlike(s, depth="z-24") > 300 and unlike(s, depth="z-16") == 0,
     "textured-floor": lambda s: unlike(s, interpolation="affine") > 1000,
+    "moving-camera": lambda s: 3 * smeared(s, "reprojected") < smeared(s, "kept"),
     "lit-floor": lambda s: (brightest(s), brightest(s, shading="gouraud")) == (0.787, 0.221),
     "box-in-light": lambda s: np.sum(s.column("shade", "light_share") == 0) == 118,
     "mirror-cube": lambda s: (

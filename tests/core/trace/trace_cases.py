@@ -85,6 +85,7 @@ def textured_clip_scene() -> ClipScene:
 
 LEFT_OUT = (
     "bar-and-wire",
+    "moving-camera",
     "crossing-glass",
     "twisted-tube",
     "blended-bar",
