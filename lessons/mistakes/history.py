@@ -12,12 +12,18 @@ def kept_after(old: Fraction, new: Fraction, share: Fraction, count: int) -> tup
     return (float(old),)
 
 
-def ghost_pictures(share: Fraction, visible: Fraction) -> tuple[int]:
-    """Return after how many pictures less than ``visible`` is left of what was there."""
+def ghost_pictures(share: Fraction, visible: Fraction) -> tuple[int, Fraction]:
+    """Return after how many pictures less than ``visible`` is left of what was there, and how much that is."""
     left, count = Fraction(1), 0
     while left >= visible:
         left, count = left * (1 - share), count + 1
-    return (count,)
+    return count, left
+
+
+def ghost_by_steps(share: Fraction, visible: Fraction) -> tuple[int, Fraction]:
+    """Remove the same part of what was there in each picture."""
+    count = int(-(-(1 - visible) // share))
+    return count, 1 - count * share
 
 
 _KEPT = (Fraction(0), Fraction(1), Fraction(1, 5), 2)
@@ -45,7 +51,7 @@ RULES = (
         "ghost-is-over",
         "Each picture was taken to remove the same part of the first brightness. It removes a share of what is left.",
         ghost_pictures,
-        lambda share, visible: (int(-(-(1 - visible) // share)),),
+        ghost_by_steps,
         _LEFT,
         _SOON,
     ),

@@ -6,18 +6,18 @@ from itertools import pairwise
 from lessons.mistakes.twin import WrongRule
 
 
-def shaded_early(depths: Sequence[int]) -> tuple[int]:
-    """Return how many fragments of a pixel are shaded, of depths in drawing order, where smaller is nearer."""
+def shaded_early(depths: Sequence[int], pixels: int) -> tuple[int]:
+    """Return how many fragments of layers over all pixels are shaded, drawn in the order of their depths."""
     nearest, count = max(depths) + 1, 0
     for depth in depths:
         if depth < nearest:
             nearest, count = depth, count + 1
-    return (count,)
+    return (count * pixels,)
 
 
-def shaded_against_previous(depths: Sequence[int]) -> tuple[int]:
+def shaded_against_previous(depths: Sequence[int], pixels: int) -> tuple[int]:
     """Compare each depth with the one before it alone."""
-    return (1 + sum(new < old for old, new in pairwise(depths)),)
+    return ((1 + sum(new < old for old, new in pairwise(depths))) * pixels,)
 
 
 def after_prepass(depths: Sequence[int]) -> tuple[int, int]:
@@ -33,27 +33,27 @@ def rays_ask(width: int, height: int, triangles: int) -> tuple[int, int]:
 RULES = (
     WrongRule(
         "early-only-visible",
-        "Only the fragment that is seen in the end was counted. Where it comes late, those before it are shaded.",
+        "Only what is seen in the end was counted. Where it comes late, what was nearest before it is shaded, too.",
         shaded_early,
-        lambda depths: (int(len(depths) > 0),),
-        ((5, 3, 1),),
-        ((1, 3, 5),),
+        lambda depths, pixels: (pixels if depths else 0,),
+        ((5, 3, 1), 12),
+        ((1, 3, 5), 12),
     ),
     WrongRule(
         "early-against-previous",
         "Each depth was compared with the one before it. The depth buffer holds the nearest so far.",
         shaded_early,
         shaded_against_previous,
-        ((3, 5, 4),),
-        ((5, 3, 1),),
+        ((3, 5, 4), 12),
+        ((5, 3, 1), 12),
     ),
     WrongRule(
         "early-shades-all",
         "All fragments were counted. That is the late test, which shades before it compares.",
         shaded_early,
-        lambda depths: (len(depths),),
-        ((1, 3, 5),),
-        ((5, 3, 1),),
+        lambda depths, pixels: (len(depths) * pixels,),
+        ((1, 3, 5), 12),
+        ((5, 3, 1), 12),
     ),
     WrongRule(
         "prepass-then-less",

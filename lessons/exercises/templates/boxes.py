@@ -1,7 +1,7 @@
 """Boxes of objects: which the view volume drops, which a ray opens, and how a tree is cut."""
 
-from lessons.exercises.drafting import by_rule
-from lessons.exercises.numbers import Draws, number_text, reject
+from lessons.exercises.drafting import by_rule, one_of, several
+from lessons.exercises.numbers import Draws, reject
 from lessons.exercises.question import Draft, template
 from lessons.mistakes.shelf import RULES
 
@@ -15,15 +15,16 @@ def _wrong_is_another(name: str, *arguments: object) -> None:
 @template("box-outside-plane", 1, "A box and a plane", "cull", 2)
 def draw_box_and_plane(draws: Draws) -> Draft:
     """The distance that decides whether a box is outside of a plane."""
-    low = [draws.whole(-6, 3) for _ in range(2)]
-    high = [coordinate + draws.whole(1, 5) for coordinate in low]
-    normal = [draws.item((-2, -1, 1, 2)), draws.item((-2, -1, 1, 2))]
-    offset = draws.whole(-8, 8)
+    low = [draws.whole(-12, 6) for _ in range(2)]
+    high = [coordinate + draws.whole(2, 10) for coordinate in low]
+    normal = [draws.item((-5, -3, -2, 2, 3, 5)) for _ in range(2)]
+    offset = draws.whole(-20, 20)
     arguments = (normal, offset, (low, high))
+    reject(abs(RULES["nearest-corner-asked"].right(*arguments)[0]) < 30)
     _wrong_is_another("nearest-corner-asked", *arguments)
     given = (
         f"Box: x from {low[0]} to {high[0]}, y from {low[1]} to {high[1]}\n"
-        f"Plane: distance d = {normal[0]} x + {normal[1]} y + {offset}"
+        f"Plane: distance d = {normal[0]} x {normal[1]:+d} y {offset:+d}"
     )
     asked = f"""Inside of a plane is where its distance d is 0 or more. Which distance has the one corner of the box
         that decides whether the whole box is outside?
@@ -33,22 +34,29 @@ def draw_box_and_plane(draws: Draws) -> Draft:
     return by_rule(asked, given, arguments, ("nearest-corner-asked",))
 
 
-@template("box-around-view", 1, "Is the box dropped?", "cull", 2)
-def draw_box_and_view(draws: Draws) -> Draft:
-    """A box against two planes, with no corner inside."""
-    right, reach = draws.whole(2, 5), draws.whole(1, 4)
-    is_around = draws.item((True, False))
-    low = -right - reach if is_around else right + 1
-    high = right + reach if is_around else right + 1 + reach
+@template("box-around-view", 1, "Which boxes are dropped?", "cull", 2)
+def draw_boxes_and_view(draws: Draws) -> Draft:
+    """Boxes against two planes: around both, outside of one, across one."""
+    right = draws.whole(2, 5)
+    low, high, middle = (
+        -right - draws.whole(1, 4),
+        right + draws.whole(1, 4),
+        draws.whole(1 - right, right - 1),
+    )
+    ends = draws.shuffled(((low, high), (low - draws.whole(1, 4), low), (high, high + 2), (middle, high)))
     planes = (((1, 0), right), ((-1, 0), right))
-    arguments = (planes, ((low, 0), (high, 1)))
-    given = f"Planes: d = x + {right} (left) and d = -x + {right} (right)\nBox: x from {low} to {high}, y from 0 to 1"
-    asked = f"""No corner of this box is inside of both planes. Does culling of objects drop it? Write 1 for dropped, 0
-        for kept.
-        Hint: Which corners are outside of the left plane, where d is below 0?
-        Hint: Is there one plane that all corners are outside of?
-        Hint: Where do the corners at x = {low} lie against each plane, and those at x = {high}?"""
-    return by_rule(asked, given, arguments, ("no-corner-inside",))
+    rule = RULES["no-corner-inside"]
+    chosen, wrong = (
+        [k for k, (start, end) in enumerate(ends) if drops(planes, ((start, 0), (end, 1))) == (1,)]
+        for drops in (rule.right, rule.wrong)
+    )
+    given = f"Planes: d = x + {right} (left) and d = -x + {right} (right)\nBoxes: y from 0 to 1"
+    asked = f"""Inside of a plane is where d is 0 or more. Which of these boxes does culling of objects drop?
+        Hint: Which corners of a box are outside of the left plane, where d is below 0?
+        Hint: Is there one plane that all corners of the box are outside of?
+        Hint: Where does the corner at x = {low} lie against each plane, and the one at x = {high}?"""
+    options = [f"x from {start} to {end}" for start, end in ends]
+    return several(asked, given, options, chosen, {rule.name: wrong})
 
 
 @template("bvh-first-cut", 1, "The first cut of a BVH", "cull", 1)
@@ -58,12 +66,12 @@ def draw_first_cut(draws: Draws) -> Draft:
     centers = sorted({draws.whole(0, 12) for _ in range(count)} | {draws.whole(40, 90)})
     reject(len(centers) < 5)
     _wrong_is_another("space-halved", centers)
-    asked = f"""These are the centres of boxes along the axis of their widest spread. A bounding volume hierarchy is cut
-        in the middle of the objects. How many get into the first part, and how many into the second? The first
-        one is the smaller where they differ.
+    asked = f"""These are the centres of {len(centers)} boxes along the axis of their widest spread. A bounding volume
+        hierarchy is cut in the middle of the objects. How many get into the first part, and how many into the
+        second? The first one is the smaller where they differ.
         Hint: Is the space halved, or the list of objects?
-        Hint: How many centres are there?
-        Hint: There are {len(centers)}: half of them, rounded down, and the rest."""
+        Hint: The list is cut in the middle, wherever the centres lie.
+        Hint: Of {len(centers)}, the first part gets half, rounded down."""
     return by_rule(
         asked, f"Centres: {', '.join(map(str, centers))}", (centers,), ("space-halved",), ("first", "second")
     )
@@ -97,12 +105,11 @@ def draw_ray_and_box(draws: Draws) -> Draft:
         f"Ray: x = {direction[0]} t, y = {direction[1]} t\n"
         f"Box: x from {low[0]} to {high[0]}, y from {low[1]} to {high[1]}"
     )
-    near = number_text(RULES["slabs-joined"].right((0,), direction[:1], (low[:1], high[:1]))[0])
     asked = f"""At which t is the ray between all planes of the box, and at which t is it so no longer? Write both, also
         where it leaves before it enters: then it misses the box.
         Hint: At which t does it come between the planes of x, and when does it leave them?
         Hint: It enters at the larger of both entries, and leaves at the smaller of both exits.
-        Hint: It comes between the planes of x at t = {near}."""
+        Hint: It comes between the planes of x where {direction[0]} t = {low[0]}."""
     return by_rule(asked, given, arguments, ("slabs-joined",), ("enter", "leave"))
 
 
@@ -114,12 +121,14 @@ def draw_nearest(draws: Draws) -> Draft:
     boxes = [(start, start + draws.whole(1, 12)) for start in starts]
     reject(len({hit for _, hit in boxes}) < len(boxes))
     _wrong_is_another("nearest-box-wins", boxes)
+    rule = RULES["nearest-box-wins"]
     given = "\n".join(
         f"Box {k}: begins at t = {start}, its nearest hit at t = {hit}"
         for k, (start, hit) in enumerate(boxes)
     )
-    asked = f"""A ray meets three boxes that overlap. Which box holds what is seen? Write its number.
+    asked = f"""A ray meets three boxes that overlap. Which box holds what is seen?
         Hint: Is it the box or the hit that is seen?
         Hint: After the hit in a box, which boxes may still hold a nearer one?
         Hint: After the hit of box 0 at t = {boxes[0][1]}: those that begin before it."""
-    return by_rule(asked, given, (boxes,), ("nearest-box-wins",))
+    options = [f"box {k}" for k in range(len(boxes))]
+    return one_of(asked, given, options, rule.right(boxes)[0], {rule.name: rule.wrong(boxes)[0]})

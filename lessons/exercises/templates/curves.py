@@ -23,10 +23,9 @@ def draw_point(draws: Draws) -> Draft:
     levels = "two" if count == 3 else "three"
     asked = f"""Where is the point of this Bezier curve at t?
         Hint: Mix each two neighbours: 1 − t of the first and t of the second.
-        Hint: {count} points give {count - 1} mixtures. Mix these in the same way, level by level, until one point is
-        left.
-        Hint: There are {levels} levels here. The first begins with the mixture of {points[0]} and {points[1]}, with the
-        shares {1 - t} and {t}."""
+        Hint: Each level has one point fewer than the one before. Mix its points in the same way, until one is left.
+        Hint: There are {levels} levels here. The first begins with the mixture of {points[0]} and {points[1]} at
+        t = {t}."""
     return by_rule(
         asked,
         given,

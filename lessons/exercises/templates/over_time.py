@@ -38,9 +38,16 @@ def draw_ghost(draws: Draws) -> Draft:
     )
     reject(ghost_pictures(share, Fraction(1, visible))[0] < 3)
     asked = f"""An object has left a pixel, whose history shows it in full. Each new picture shows the black background
-        there, with a share of {share}. After how many pictures is less than 1/{visible} of it left?
+        there, with a share of {share}. After how many pictures is less than 1/{visible} of it left for the first
+        time, and how much of it?
         Hint: What is left is multiplied by the same number in each picture.
         Hint: That number is 1 - {share}.
         Hint: After n pictures (1 - {share}) to the power of n is left: find the first n with less than 1/{visible}."""
     given = f"Share of the new picture: {share}"
-    return by_rule(asked, given, (share, Fraction(1, visible)), ("ghost-is-over", "ghost-of-the-share"))
+    return by_rule(
+        asked,
+        given,
+        (share, Fraction(1, visible)),
+        ("ghost-is-over", "ghost-of-the-share"),
+        ("pictures", "left"),
+    )

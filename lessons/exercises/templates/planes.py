@@ -1,7 +1,7 @@
 """The order of drawing: a walk through a tree of planes, cuts, and sorting with a corner behind the eye."""
 
 from lessons.exercises.answers.choices import OrderAnswer
-from lessons.exercises.drafting import by_rule, drafted, listed
+from lessons.exercises.drafting import by_rule, drafted, listed, words
 from lessons.exercises.numbers import Draws, reject
 from lessons.exercises.question import Draft, template
 from lessons.mistakes.planes import Node
@@ -85,7 +85,7 @@ def draw_sort(draws: Draws) -> Draft:
         negative behind the eye. In which order are these triangles painted, first to last?
         Hint: The farthest mean is painted first.
         Hint: Take the mean of w itself, not of the depth after the division by w.
-        Hint: The distances of {names[which]} add up to {sum(corners[which])}."""
+        Hint: Add the distances of {names[which]} with their signs: {words(corners[which])}."""
     options = tuple(names[k] for k in order)
     wrong = {rule.name: tuple(order.index(k) for k in after)}
     return drafted(asked, given, OrderAnswer(options, draws.shuffled(names)), wrong)
