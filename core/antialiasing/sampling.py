@@ -130,8 +130,8 @@ def supersample_by_4(samples_across: int) -> Sampling:
     takes=("resolve_filter", "samples_across"),
 )
 def supersample_by_n(samples_across: int) -> Sampling:
-    """Take ``samples_across`` x ``samples_across`` samples a pixel."""
-    return Sampling(grid_positions(samples_across), side=samples_across)
+    """Take ``samples_across`` x ``samples_across`` samples a pixel; one alone is the centre."""
+    return Sampling(grid_positions(samples_across), side=samples_across if samples_across > 1 else 0)
 
 
 @method(

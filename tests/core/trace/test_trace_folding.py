@@ -11,6 +11,7 @@ from core.framebuffer.display import to_display
 from core.methods import table
 from core.pipeline import draw
 from core.records.frame import Frame
+from core.resolved import resolve
 from core.settings import families
 from core.stages.vertices import Before
 from core.trace import Trace
@@ -47,9 +48,9 @@ def same_bits(found: np.ndarray, wanted: np.ndarray) -> bool:
 
 def check_frame(traced: Trace, frame: Frame, crop: tuple[slice, slice] = (slice(None), slice(None))) -> None:
     """Compare everything that rows write with a picture."""
-    antialiasing = traced.source.settings.antialiasing
+    is_plain = resolve(traced.source.settings).sampling.is_plain
     for name, (stage, track) in FOLDED.items():
-        if name == "color" and antialiasing != "none":
+        if name == "color" and not is_plain:
             # Several samples are blended apart, and exact areas are those of the last stage.
             stage = "resolve"
         wanted = np.ascontiguousarray(getattr(frame, name)[crop])
