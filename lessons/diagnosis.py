@@ -243,8 +243,9 @@ def _with_corners(scene: AnyScene, settings: Settings, drawn: Drawn) -> AnyScene
             return scene
         return replace(scene, attributes=np.tile([0.0, 0.0, 0.0, 1.0], (*scene.clip.shape[:2], 1)))
     is_lit = settings.shading != "unlit" or any(mesh.texture is not None for mesh in scene.meshes)
-    # A vertex shader places vertices, and not the matrices.
-    if scene.program is not None or (drawn.colors is not None and is_lit):
+    # A vertex shader places vertices, or what comes before the matrices makes them, and not the matrices alone.
+    is_placed_before = scene.program is not None or scene.makes_positions
+    if is_placed_before or (drawn.colors is not None and is_lit):
         return scene
     stage = transform_vertices(scene)
     colors = np.concatenate(

@@ -158,7 +158,7 @@ def seen(user: NewUser) -> str:
 def test_a_question_is_answered_in_a_few_actions(question: str, user: NewUser, qtbot: QtBot) -> None:
     script, answers = QUESTIONS[question]
     assert follow(user, script) <= MOST_ACTIONS
-    qtbot.waitUntil(lambda: all(answer in seen(user) for answer in answers), timeout=90_000)
+    qtbot.waitUntil(lambda: all(answer in seen(user) for answer in answers), timeout=300_000)
 
 
 def test_a_click_on_the_pixel_that_a_scene_opens_at_shows_its_history(user: NewUser) -> None:
