@@ -102,10 +102,13 @@ def test_the_drawing_order_does_not_matter(count: int, seed: int) -> None:
     assert np.array_equal(one, other)
 
 
-@pytest.mark.parametrize("name", ["crossing-glass", "clip"])
-def test_blended_it_is_the_picture_of_scan_lines(name: str) -> None:
-    scene = SCENES.get(name) or make_scene(name)
-    lists, lines = (render(scene, replace(BLENDED, visibility=v)) for v in ("hit-lists", "scan-line"))
+REYES = {"tessellation": "reyes", "curve_tolerance": 128, "shading": "gouraud"}
+
+
+@pytest.mark.parametrize(("name", "chosen"), [("crossing-glass", {}), ("clip", {}), ("folded-glass", REYES)])
+def test_blended_it_is_the_picture_of_scan_lines(name: str, chosen: dict[str, object]) -> None:
+    scene, settings = SCENES.get(name) or make_scene(name), replace(BLENDED, **chosen)
+    lists, lines = (render(scene, replace(settings, visibility=v)) for v in ("hit-lists", "scan-line"))
     assert np.allclose(lists.color, lines.color, atol=1e-6)
     assert np.array_equal(lists.primitive, lines.primitive)
 
