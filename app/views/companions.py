@@ -229,7 +229,7 @@ class FillingTable(Companion):
         return self._view
 
     def is_wanted(self, moment: Moment) -> bool:
-        """Return whether some row of the stage stands in a table; where curves are cut first, one that is done."""
+        """Return whether some row of the stage stands in a table; where vertices are moved first, one that is done."""
         first = first_in_table(moment.stage_trace)
         return first < moment.steps.row_count and (moment.cursor.stage != STAGES[0] or moment.row >= first)
 

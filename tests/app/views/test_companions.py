@@ -46,12 +46,18 @@ def test_a_stage_of_two_sides_shows_both(window: MainWindow, scene: str, beside:
 
 
 def test_what_is_empty_leaves_the_room_to_the_scene(window: MainWindow) -> None:
-    """Bones move vertices before any is divided by w; patches are cut before the first point is mixed."""
+    """Bones move vertices before any is divided by w; patches are cut first, which has a table of its own."""
     session, area = window.session, window.page.main_area
-    for scene in ("bent-bar", "diced-ball"):
-        session.open(open_document(make_scene(scene), scene))
-        session.set_stage("transform", 1)
-        assert not area.beside.isVisible(), scene
+    session.open(open_document(make_scene("bent-bar"), "bent-bar"))
+    session.set_stage("transform", 1)
+    assert not area.beside.isVisible()
+    session.open(open_document(make_scene("diced-ball"), "diced-ball"))
+    session.set_stage("transform", 1)
+    assert area.beside.isVisible()
+    (table,) = (view.table() for view in area.beside.findChildren(StepTableView) if view.isVisible())
+    assert table is not None
+    assert table.title == "Where it is cut"
+    assert any(cell is not None for cell in table.cells[0])
     session.set_stage("transform")
     assert area.beside.currentWidget() is area.companions["order"].widget
     assert area.beside.isVisible()
