@@ -112,27 +112,36 @@ class StepColumns(PaneSplitter):
         self._is_presenting = is_presenting
         self.spread()
 
+    def show_side(self, is_shown: bool) -> None:
+        """Show the side pane or fold it away; what it shows is laid out in its width at once, not first in another."""
+        side, inspector = self._sides
+        if is_shown and side.isHidden():
+            side.resize(self._widths_of(True, not inspector.isHidden())[0], self.height())
+        side.setVisible(is_shown)
+
     @Slot()
     def spread(self) -> None:
         """Give the sides that are shown their widths, and the main view the rest: at least a third."""
         text = current_theme().text_px
         for widget, least in zip(self._sides, NARROWEST_SIDES, strict=True):
             widget.setMinimumWidth(least * text)
-        wanted = [
-            0.0 if widget.isHidden() else width * text
-            for widget, width in zip(self._sides, self._widths, strict=True)
-        ]
+        left, right = self._widths_of(*(not widget.isHidden() for widget in self._sides))
+        if not self._is_presenting and not self._sides[0].isHidden():
+            # Qt does so later, and divides once more.
+            self.handle(1).show()
+        self.setSizes([left, max(self.width() - left - right, 1), right])
+
+    def _widths_of(self, *are_shown: bool) -> list[int]:
+        """Return the widths of the side pane and of the inspector, by which of them are shown."""
+        text = current_theme().text_px
+        wanted = [is_shown * width * text for is_shown, width in zip(are_shown, self._widths, strict=True)]
         wanted[1] = min(wanted[1], INSPECTOR_AT_MOST * self.width())
         if self._is_presenting and wanted[1]:
             wanted[1] = PRESENTED * self.width()
         room = SIDES_AT_MOST * self.width()
         wanted[1] -= min(max(sum(wanted) - room, 0.0), max(wanted[1] - GIVES_WAY_TO * text, 0.0))
         scale = min(1.0, room / max(sum(wanted), 1.0))
-        left, right = (round(width * scale) for width in wanted)
-        if not self._is_presenting and not self._sides[0].isHidden():
-            # Qt does so later, and divides once more.
-            self.handle(1).show()
-        self.setSizes([left, max(self.width() - left - right, 1), right])
+        return [round(width * scale) for width in wanted]
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Give the main view what the window has gained or lost."""

@@ -66,13 +66,13 @@ def draw_mark(painter: QPainter, mark: Mark, box: QRectF) -> None:
     painter.restore()
 
 
-def mark_pixmap(mark: Mark, side: int, ratio: float = 1.0) -> QPixmap:
-    """Return a mark as a pixmap of `side` logical pixels at a device pixel ratio."""
+def mark_pixmap(mark: Mark, side: int, ratio: float = 1.0, margin: float = 0.5) -> QPixmap:
+    """Return a mark as a pixmap of `side` logical pixels at a device pixel ratio, with a `margin` around it."""
     pixmap = QPixmap(round(side * ratio), round(side * ratio))
     pixmap.setDevicePixelRatio(ratio)
     pixmap.fill(Qt.GlobalColor.transparent)
     painter = QPainter(pixmap)
-    draw_mark(painter, mark, QRectF(0.5, 0.5, side - 1, side - 1))
+    draw_mark(painter, mark, QRectF(margin, margin, side - 2 * margin, side - 2 * margin))
     painter.end()
     return pixmap
 

@@ -339,7 +339,7 @@ class CompareView(QWidget):
         lines = LEAST_LINES_WITH_CODE[1] if self._is_tight else CODE_LINES
         self._code.setMinimumHeight(lines * self.fontMetrics().lineSpacing())
         for view, side in zip(self.listings, sides, strict=False):
-            if side.listing is None or view.toPlainText() != side.listing.source.rstrip("\n"):
+            if view.toPlainText() != ("" if side.listing is None else side.listing.source.rstrip("\n")):
                 view.show_listing(side.listing)
             view.show_line(side.line or None)
         self._fold_if_larger()

@@ -1,7 +1,7 @@
 """The whole run as chapters in one row: a stage with its key, what goes in and out of it, how much of it is done."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum, IntEnum
 from functools import lru_cache
 
@@ -94,9 +94,9 @@ class ChapterButton(QAbstractButton):
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.show_chapter(chapter)
 
-    def show_chapter(self, chapter: Chapter) -> None:
-        """Show another state of the stage."""
-        self._chapter = chapter
+    def show_chapter(self, chapter: Chapter) -> bool:
+        """Show another state of the stage; return whether it looks otherwise, and not only the tooltip."""
+        before, self._chapter = self._chapter, chapter
         words = [chapter.state.value] + ["inserted"] * chapter.is_inserted
         status = ", ".join(words) + (f": {chapter.reason}" if chapter.reason else "")
         figures = ", ".join(part for part in (chapter.counts, chapter.duration) if part)
@@ -104,7 +104,10 @@ class ChapterButton(QAbstractButton):
         self.setToolTip("\n".join(part for part in (f"{chapter.title}{key}", figures, status) if part))
         self.setAccessibleName(f"Stage {chapter.title}")
         self.setAccessibleDescription(", ".join(part for part in (status, figures) if part))
-        self.update()
+        is_other = replace(before, duration=chapter.duration, reason=chapter.reason) != chapter
+        if is_other:
+            self.update()
+        return is_other
 
     def chapter(self) -> Chapter:
         """Return what is shown."""
@@ -294,8 +297,7 @@ class ChapterRow(QWidget):
                 button.installEventFilter(self)
                 self._buttons.append(button)
                 self._row.addWidget(button)
-            elif self._buttons[place].chapter() != chapter:
-                self._buttons[place].show_chapter(chapter)
+            elif self._buttons[place].chapter() != chapter and self._buttons[place].show_chapter(chapter):
                 changed.append(place)
         self._share_width(changed)
         self._set_tab_stop()

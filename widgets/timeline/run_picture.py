@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QGuiApplication, QImage, QPainter
 
-from widgets.basics.drawing import Mark, draw_mark
+from widgets.basics.drawing import Mark, draw_mark, mark_pixmap
 from widgets.basics.theme import CLEAR, contrast, current_theme
 
 LANES = (Mark.COVERED, Mark.REJECTED, Mark.TIE, Mark.NAN, Mark.DEPTH_FAILED)
@@ -112,17 +112,18 @@ class RunView:
 
     def _paint_lane(self, painter: QPainter, mark: Mark, lane: QRectF) -> None:
         theme = current_theme()
-        steps = self.run.marks[mark]
+        steps, ratio = self.run.marks[mark], painter.device().devicePixelRatioF()
         step_width, side = self.step_width(), lane.height()
         start, stop = np.searchsorted(steps, [self.first - 1.0, self.last])
         visible = steps[start:stop]
         if len(visible) * side <= lane.width() and _are_apart(visible, side / step_width):
-            for step in visible:
-                middle = self.x_of(float(step) + 0.5)
-                draw_mark(painter, mark, QRectF(middle - side / 2, lane.top(), side, side))
+            # On whole pixels, from a picture: smooth lines are slow to draw.
+            stamp = mark_pixmap(mark, round(side), ratio, margin=0.0)
+            lefts = self.lanes.left() + (visible + 0.5 - self.first) * step_width - side / 2
+            for left in (np.rint(lefts * ratio) / ratio).tolist():
+                painter.drawPixmap(QPointF(left, lane.top()), stamp)
             return
         # One row of pixels, as wide as the lane, stretched over its height.
-        ratio = painter.device().devicePixelRatioF()
         columns = max(1, int(lane.width() * ratio))
         is_marked = column_counts(steps, self.first, self.last, columns) > 0
         tick = max(1, round(min(step_width, side) * 0.8 * ratio))

@@ -228,9 +228,16 @@ class LessonStates(QObject):
     @Slot(object)
     def _look_at(self, made: OpenState | None) -> None:
         if made is not None:
-            page = self._page
-            fill = partial(page.scene.prepare, made.document) if made.state.panes else lambda: None
-            page.inspector.ahead.look_at(Step(made.trace, made.cursor), fill)
+            self._page.inspector.ahead.look_at(
+                Step(made.trace, made.cursor), partial(self._prepare_beside, made)
+            )
+
+    def _prepare_beside(self, made: OpenState) -> None:
+        """Prepare what stands beside the step that comes next."""
+        if made.state.panes:
+            self._page.scene.prepare(made.document)
+        if made.second is not None:
+            self._page.comparing.prepare(made.trace, made.cursor, *made.second)
 
     @Slot(object)
     def _leave_out(self, error: Exception) -> None:

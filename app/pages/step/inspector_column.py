@@ -55,7 +55,7 @@ class InspectorColumn(QTabWidget):
         self._width = self._tallest = self._longest = 0
         """Width of what is in the pane that scrolls, and heights of the stage's tallest formula and sentence so far."""
         self._is_presenting, self._is_card_wanted, self._folds_listing = False, True, False
-        self._is_alone = False
+        self._is_alone = self._is_put_off = self._is_owed = False
         self._is_history_chosen = False
         """Whether the user wants to see histories while stepping."""
         self.card, self.formula, self.code = StageCardView(self), FormulaView(self), ListingPane(self)
@@ -187,13 +187,24 @@ class InspectorColumn(QTabWidget):
         self.tabBar().setFont(
             text_font(current_theme())
         )  # Qt leaves it as it was while the column is hidden.
-        self._longest = 0
-        self.fit()
+        self._tallest = self._longest = -1
         self._make_room(0)
+
+    def put_off(self, is_put_off: bool) -> None:
+        """Fit nothing until all is known that is shown; `fit_owed` does it once."""
+        self._is_put_off = is_put_off
+
+    def fit_owed(self) -> None:
+        """Fit what has been put off."""
+        if self._is_owed:
+            self.fit()
 
     @Slot()
     def fit(self) -> None:
         """Keep room for the sentence, the tallest formula and some of the listing, in any type."""
+        self._is_owed = self._is_put_off
+        if self._is_put_off:
+            return
         line = round(1.25 * current_theme().text_px)
         self.sentence.setMinimumHeight(SENTENCE_LINES * line)
         told = 0 if self._is_alone else max(SENTENCE_LINES * line, self._longest) + 4
@@ -312,10 +323,12 @@ class SideColumn(QWidget):
     def put_off(self, is_put_off: bool) -> None:
         """Divide the height no more until all is known that is shown, then once."""
         self._is_put_off = is_put_off
+        self._inspector.put_off(is_put_off)
         if not is_put_off:
             if self._lesson is not None:
                 self._lesson.measure_anew()
             self._divide()
+            self._inspector.fit_owed()
 
     def set_idle(self, is_idle: bool) -> None:
         """Leave the inspector out of a lesson: no step has been done that it could show."""

@@ -227,7 +227,7 @@ class StepPage(Page):
         side = next((name for name in names if name in sides), "")
         if side:
             self.side_panes.setCurrentIndex(sides.index(side))
-        self.side_panes.setVisible(bool(side))
+        self.columns.show_side(bool(side))
         self.side_tabs.show_open(side)
         self.column.setVisible("inspector" in names)
         self.column.variables.setVisible("details" in names)

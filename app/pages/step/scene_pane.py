@@ -9,22 +9,19 @@ from PySide6.QtWidgets import QWidget
 
 from app.pages.page_bar import Page
 from app.pages.step.scene_values import outline
+from app.pages.step.setting_records import settings_records
 from app.session.document import Document, TeachingRaster, focus_on
 from app.session.moment import Moment
 from app.session.session import Session
 from core.depth.whole_depths import table_scene
-from core.families import WholeNumber
-from core.methods import table
 from core.records.depth_table import DepthTable, depth_of_text, depths_of_text
 from core.records.words import nouns
 from core.scene import ClipScene
-from core.settings import DEFAULTS, FAMILIES, FIELDS, WHOLE_NUMBERS, no_effect
-from core.stages.declared import DECLARED, stage_of
-from core.stages.needs import refusal
+from core.settings import WHOLE_NUMBERS
 from lessons.scene_edits import set_values
 from lessons.shapes import linear_color
 from lessons.window_scenes import COLORS
-from widgets.basics.settings_panel import Setting, SettingChoice, SettingsPanel
+from widgets.basics.settings_panel import SettingsPanel
 from widgets.scene.depth_table import DepthTableEditor
 from widgets.scene.outline import OutlineGroup, OutlineRow, OutlineValue, SceneOutline
 
@@ -134,51 +131,6 @@ def _document_group(document: Document) -> OutlineGroup:
         label = f"{drawn.one.capitalize()} in focus, of {count:,}"
         rows.append(OutlineRow("document/focus", label, (value,)))
     return OutlineGroup("document", document.title or "Scene", tuple(rows))
-
-
-def settings_records(document: Document) -> list[Setting]:
-    """Return one record per setting, with what does not matter now and why."""
-    records, last = [], ""
-    order = [stage.name for stage in DECLARED]
-    for family in sorted(FAMILIES, key=lambda family: order.index(FAMILIES[family].stage)):
-        for name in (family, *(number for number in WHOLE_NUMBERS if FIELDS[number].taken_by == family)):
-            heading = stage_of(FAMILIES[family].stage).heading
-            records.append(_record(document, name, heading if heading != last else ""))
-            last = heading
-    return records
-
-
-def _record(document: Document, name: str, heading: str) -> Setting:
-    declared, settings = FIELDS[name], document.settings
-    current = str(getattr(settings, name))
-    if isinstance(declared, WholeNumber):
-        numbers = [str(number) for number in declared.offered]
-        numbers += [] if current in numbers else [current]
-        choices = tuple(SettingChoice(number, declared.label.format(number)) for number in numbers)
-        is_more = False
-    else:
-        # Where another function runs in place of a method, its name stands there.
-        runs = getattr(settings, name)
-        choices = tuple(
-            _choice(document, name, runs if method == current else method) for method in table.names(name)
-        )
-        is_more = not FAMILIES[name].classical
-    if name == "shading" and document.scene.program is not None:
-        choices, current = (SettingChoice("", "Your shader"), *choices), ""
-    reason = no_effect(settings, name, document.scene)
-    is_used = current != str(getattr(DEFAULTS, name))
-    is_more = not is_used and (is_more or (isinstance(declared, WholeNumber) and bool(reason)))
-    return Setting(name, declared.title, choices, current, reason, heading, is_more)
-
-
-def _choice(document: Document, family: str, name: str) -> SettingChoice:
-    found = table.get(family, name)
-    breaks = f"\nBreaks: {found.breaks_where}." if found.breaks_where else ""
-    tooltip = f"{name}\nSource: {found.source}.\nExact for {found.exact_for}.{breaks}"
-    reason = refusal(family, name, document.scene)
-    return SettingChoice(
-        str(name), found.title, tooltip, reason and f"It {reason}.", name not in FAMILIES[family].classical
-    )
 
 
 # The table of depths in the Scene pane: each edit makes another table, and so another scene, which undo

@@ -335,8 +335,10 @@ class SteppingPresenter(QObject):
 
     def set_places(self, bookmarks: Iterable[Bookmark] = (), breakpoints: Breakpoints | None = None) -> None:
         """Have these bookmarks and breakpoints, those of another scene, and no others."""
-        self.breaks = Breaks(breakpoints)
-        self.bookmarks.set_marks(bookmarks)
+        before = self.breaks.record(), self.bookmarks.marks
+        self.breaks, marks = Breaks(breakpoints), list(bookmarks)
+        if before != (self.breaks.record(), marks):  # The run that was opened shows the others already.
+            self.bookmarks.set_marks(marks)
 
 
 def _level_names(moment: Moment) -> dict[Level, str]:

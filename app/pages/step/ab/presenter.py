@@ -15,8 +15,10 @@ from app.pages.step.ab.runs import DrawnB, EditedB
 from app.pages.step.ab.shown_runs import ShownRuns
 from app.pages.step.ab.side_b import SideB, first_difference, settings_difference
 from app.pages.step.grid_presenter import VertexDrags
+from app.pages.step.inspector_presenter import sentence_at
+from app.pages.step.setting_records import settings_records
 from app.session.document import Document
-from app.session.moment import Moment, Step
+from app.session.moment import Cursor, Moment, Step
 from app.session.session import Session
 from core import Settings, Trace
 from core.records.steps import Level
@@ -249,6 +251,14 @@ class ComparePresenter(QObject):
                 self.refresh(self._session.moment)
             else:
                 self.set_active(self._is_active)
+
+    @staticmethod
+    def prepare(first: Trace, cursor: Cursor, document: Document, second: Trace) -> None:
+        """Find what is said of a B that may be shown next, and the settings that it offers."""
+        run = second.stage(cursor.stage)
+        steps = LockStep(first.stage(cursor.stage), run, cursor)
+        sentence_at(Step(second, replace(cursor, position=steps.positions[1])))
+        settings_records(document)
 
     def refresh(self, moment: Moment) -> None:
         """Trace B anew, and show both runs."""

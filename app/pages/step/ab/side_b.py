@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from app.pages.step.scene_pane import settings_records
+from app.pages.step.setting_records import settings_records
 from app.session.document import Document
 from app.session.tracing import QUICK_SECONDS
 from core import STAGES, Settings, Trace

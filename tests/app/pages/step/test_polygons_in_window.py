@@ -7,8 +7,8 @@ import pytest
 
 from app.files.state_files import load_state, save_state
 from app.pages.step.grid_overlays import polygon_overlays, step_mark
-from app.pages.step.scene_pane import settings_records
 from app.pages.step.scene_values import outline
+from app.pages.step.setting_records import settings_records
 from app.session.document import STEPPED, open_document
 from app.window.main_window import MainWindow
 from core import ClipScene

@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from app.files.open_any import open_any
-from app.pages.step.scene_pane import settings_records
+from app.pages.step.setting_records import settings_records
 from app.session.document import open_document
 from app.views.stage_views import chapters_of
 from app.window.main_window import MainWindow
