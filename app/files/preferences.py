@@ -28,7 +28,7 @@ Base64 = Annotated[str, Field(pattern=r"^[A-Za-z0-9+/]*={0,2}$")]
 class Preferences(BaseModel):
     """Everything that is restored at the next start."""
 
-    model_config = ConfigDict(strict=True, frozen=True, extra="ignore", allow_inf_nan=False)
+    model_config = ConfigDict(strict=True, frozen=True, extra="ignore", allow_inf_nan=False, defer_build=True)
 
     recent_files: list[str] = []
     """Absolute paths, the last opened first."""

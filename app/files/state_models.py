@@ -25,7 +25,7 @@ DRAFT_LIMIT = 10 * LISTING.characters
 class Record(BaseModel):
     """What all objects share: no unknown field, no conversion of types, no NaN."""
 
-    model_config = ConfigDict(strict=True, frozen=True, extra="forbid", allow_inf_nan=False)
+    model_config = ConfigDict(strict=True, frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
 
 
 Numbers3 = tuple[float, float, float]

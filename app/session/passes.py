@@ -11,7 +11,6 @@ from core.families import mirrors_of
 from core.records.passes import PlannedPass
 from core.shading.environment import FACES
 from core.stages.passes import planned_passes
-from core.study.record import Opening
 
 NO_PASS = (
     "This picture needs no pass: choose a shadow map, reflections by a map, or a depth test with a prepass."
@@ -28,6 +27,8 @@ def pass_document(planned: PlannedPass, pixel: Pixel | None = None) -> Document:
 
     Its fill tests pixel by pixel, and draws the same.
     """
+    from core.study.record import Opening  # Studies are wanted long after the start.
+
     settings = replace(planned.settings, fill=STEPPED.fill)
     return document_at(Opening(planned.scene, settings, "depth", pixel), planned.title)
 

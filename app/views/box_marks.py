@@ -4,7 +4,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from core.culling.traced_objects import VERDICTS
 from core.records.arrays import Floats
 from core.trace.stage_trace import StageTrace
 
@@ -33,6 +32,8 @@ def box_marks(trace: StageTrace, row: int) -> list[SpaceMark]:
 
     A box that is asked is drawn by its verdict once it has one; boxes beside world space are not drawn.
     """
+    from core.culling.traced_objects import VERDICTS  # Trees come along: most scenes are drawn without.
+
     grown, columns = trace.extra["object_tree"], trace.columns
     if not grown.is_world:
         return []

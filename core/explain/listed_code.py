@@ -8,7 +8,7 @@ import math
 import re
 from collections.abc import Callable, Mapping
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,10 +16,12 @@ from core.explain.formulas import Chain, Conclusion, Named, Stated, named
 from core.explain.step_values import StepValues
 from core.explain.steps import held_values
 from core.explain.term_latex import LONGEST_LIST, TermLatex, Written, escaped, work_out
-from core.lanes.terms import Equality
 from core.methods import table
 from core.records.listing import read_statements, source_listing
 from core.records.terms import Gathered, Leaf, ListOf, Term, term
+
+if TYPE_CHECKING:
+    from core.lanes.terms import Equality  # The evaluator is loaded with the first listing that is edited.
 
 # What the marked line of a listing computes, in symbols and numbers: read from the line itself.
 
@@ -214,7 +216,7 @@ def in_latex(term: Term, now: Mapping[str, Any] | None) -> Term:
     return term.mapped(lambda part: in_latex(part, now))
 
 
-def stated(equality: Equality, kind: str, now: Mapping[str, Any] | None) -> Stated:
+def stated(equality: "Equality", kind: str, now: Mapping[str, Any] | None) -> Stated:
     """Return what a step computes; ``kind`` is that of its `LaneStep`, ``now`` as in `symbol_latex`."""
     right, result = in_latex(equality.right, now), equality.result
     shown = _result("", result)

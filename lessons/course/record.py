@@ -32,7 +32,7 @@ KEPT = ("scene", "size", "camera", "settings", "window")
 
 def word_count(text: str) -> int:
     """Return how many words a text has; signs alone, as ``=``, are none."""
-    return sum(any(letter.isalnum() for letter in word) for word in text.split())
+    return sum(any(map(str.isalnum, word)) for word in text.split())
 
 
 def _at_most(limit: int) -> AfterValidator:

@@ -300,4 +300,4 @@ Side = Annotated[int, Field(ge=1, le=SIDE_LIMIT)]
 class Part(BaseModel):
     """What all tables of a file share: no unknown field, no conversion of types."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, defer_build=True)

@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
 from app.background import Job
 from app.pages.step.inspector_column import InspectorColumn
-from app.pages.step.pixel_origins import story_of, variable_of, writer_of
+from app.pages.step.pixel_origins import variable_of, writer_of
 from app.pages.step.stepping_presenter import SteppingPresenter
 from app.session.moment import Moment, Step, stage_for
 from app.session.session import Session
@@ -74,6 +74,7 @@ def _load() -> None:
     load_subjects()
     import_module("numpy.ma")  # np.unique asks for it when it is first called.
     import_module("app.session.listing_runs")  # It says whether a listing can be edited.
+    import_module("app.pages.step.pixel_story")  # It is wanted for the first pixel that is clicked.
 
 
 class StepsAhead(QObject):
@@ -311,6 +312,8 @@ class InspectorPresenter(QObject):
             self._history.show_story(None, HIDDEN_HISTORY if moment.is_predicting else NO_HISTORY)
             self._triangles = []
             return
+        from app.pages.step.pixel_story import story_of  # As in `_load`: not before a pixel is clicked.
+
         story, self._triangles = story_of(step.trace.source, *pixel, moment.document.triangle)
         self._history.show_story(story)
 

@@ -24,7 +24,6 @@ from core.records.arrays import Singles
 from core.records.steps import Level
 from core.records.words import joined
 from core.scene import Scene
-from core.shaders.linking import scene_uniforms
 from core.shaders.presets import PRESETS, preset_of, preset_program, retyped
 from core.shaders.record import DIALECTS, ShaderProblem, ShaderProgram
 from widgets.scene.shaders import OWN, ShaderPane, ShownProgram, ShownUniform
@@ -295,6 +294,8 @@ class ShaderPresenter(QObject):
             return
         scene = self._session.latest.scene
         assert isinstance(scene, Scene)
+        from core.shaders.linking import scene_uniforms
+
         others = {other: numbers for other, numbers in program.values.items() if other != name}
         if not text.strip() and name in scene_uniforms(scene):
             self._edit(partial(replace, program, uniforms=tuple(others.items())))
@@ -433,6 +434,8 @@ def _text_of(values: Sequence[float]) -> str:
 
 def shown_program(program: ShaderProgram, scene: Scene) -> ShownProgram:
     """Return what the pane shows of a scene's shaders."""
+    from core.shaders.linking import scene_uniforms
+
     values, given = program.values, scene_uniforms(scene)
     uniforms = tuple(
         ShownUniform(

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QApplication, QLineEdit
 
 from app.files.open_any import open_any
 from app.files.state_files import EXTENSION, State, StateFileError, load_state, save_state
-from app.pages.step.pixel_origins import story_of
+from app.pages.step.pixel_story import story_of
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core.depth.whole_depths import table_scene

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.pages.step.pixel_origins import story_of
+from app.pages.step.pixel_story import story_of
 from core import Settings, render
 from core.pixel_history.told_coverage import (
     of_sample,
