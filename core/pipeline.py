@@ -296,7 +296,7 @@ def mixed_pictures(
     follows = rule.follows_camera and moves_camera(scene)
     wide = replace(raster, region=None) if follows else grown(raster, 1)
     # Reprojection needs depths that are not rounded to the buffer's format.
-    plain = replace(settings, antialiasing="none")
+    plain = resolve(settings).of_one_sample
     in_depth = replace(plain, depth="z-float32")
 
     def draw_one(age: int, point: tuple[float, float]) -> tuple[Singles, Floats]:

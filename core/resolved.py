@@ -4,6 +4,7 @@ Each is looked up when it is first asked for: a picture that draws no outlines d
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -222,6 +223,19 @@ class ResolvedSettings:
         """Where the samples of a pixel lie, and how they are drawn."""
         sampling: Sampling = self.method("antialiasing").function(self.settings.samples_across)
         return sampling
+
+    @cached_property
+    def samples_centers(self) -> bool:
+        """Whether pixels are sampled at their centres, and nowhere else."""
+        sampling = self.sampling
+        return sampling.count == 1 and not (sampling.side or sampling.is_area or sampling.is_temporal)
+
+    @cached_property
+    def of_one_sample(self) -> Settings:
+        """The settings that each sample is drawn with; beside centres no depth of occluders is known."""
+        plain = replace(self.settings, antialiasing=Settings.antialiasing)
+        is_known = self.samples_centers or self.settings.object_culling != "occlusion"
+        return plain if is_known else replace(plain, object_culling="frustum")
 
 
 @lru_cache(maxsize=16)

@@ -61,6 +61,16 @@ class Settings(Choices):
         otherwise="Only an octree needs a limit of its depth.",
     )
     """How often a cell of an octree is halved at most, 1 to 8."""
+    occluders: int = number_field(
+        4,
+        "Occluders",
+        1024,
+        (1, 2, 4, 8, 16, 32),
+        "{0} boxes",
+        taken_by="object_culling",
+        otherwise="Only occlusion culling draws occluders.",
+    )
+    """Boxes that are drawn first to hide others, the largest on screen (object culling ``occlusion``), 1 to 1,024."""
     map_size: int = number_field(
         64,
         "Shadow map",

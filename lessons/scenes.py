@@ -33,6 +33,7 @@ from lessons.window_scenes import (
 from lessons.world_scenes import (
     box_in_light,
     boxes_around,
+    boxes_behind_wall,
     lit_floor,
     mirror_cube,
     moving_camera,
@@ -290,6 +291,14 @@ CATALOGUE = (
         boxes_around,
         RunPlace("cull", 'kind == "box-outside"'),
         {"object_culling": "frustum", "hierarchy": "none"},
+    ),
+    BuiltInScene(
+        "boxes-behind-wall",
+        "Boxes behind a wall",
+        "The depth of the wall is drawn first: a box that lies behind it all over its rectangle is dropped.",
+        boxes_behind_wall,
+        RunPlace("cull", 'kind == "hidden-box"', "compare"),
+        {"object_culling": "occlusion", "hierarchy": "none", "occluders": "1"},
     ),
     BuiltInScene(
         "two-boxes",

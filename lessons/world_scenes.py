@@ -1,6 +1,6 @@
 """Scenes of meshes in world space, seen by a camera."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import atan
 
@@ -29,20 +29,45 @@ BOXES = (
     ((0.0, 1.75, -24.0), (40.0, 3.5, 1.0)),
 )
 """Middle and sides of every box; the last one is a wall that crosses the view from side to side."""
+BEHIND_WALL = (
+    ((0.0, 1.6, -7.0), (3.5, 3.0, 0.4)),
+    ((-1.0, 0.9, -10.0), (0.8, 0.8, 0.8)),
+    ((0.6, 1.5, -12.0), (1.2, 1.2, 1.2)),
+    ((-0.4, 2.4, -15.0), (1.0, 1.5, 1.0)),
+    ((1.4, 2.2, -20.0), (2.0, 2.0, 2.0)),
+    ((2.2, 1.0, -10.5), (1.0, 1.0, 1.0)),
+    ((-2.9, 1.2, -11.0), (1.2, 1.6, 1.2)),
+    ((-3.2, 0.7, -6.0), (0.6, 0.6, 0.6)),
+    ((0.0, -0.1, -9.0), (14.0, 0.1, 20.0)),
+)
+"""A wall, boxes behind it, one that looks out beside it, two beside it, and a floor that the viewer stands on."""
 
 
 def boxes_around() -> Scene:
     """Return ten boxes around a viewer, each a mesh: half of them are outside the view."""
+    meshes = colored_boxes(BOXES)
+    camera = Camera(eye=np.array([0.0, 1.6, 0.0]), target=np.array([0.0, 1.6, -1.0]), near=0.5, far=28.0)
+    weak = DirectionalLight(np.array([-0.5, -0.3, -0.9]), np.full(3, 0.4))
+    return Scene(meshes, camera, (sun(), weak), TEACHING_SIZE)
+
+
+def colored_boxes(boxes: Sequence[tuple[Sequence[float], Sequence[float]]]) -> tuple[Mesh, ...]:
+    """Return a mesh for each box, given by middle and sides; colours repeat."""
     meshes = []
-    for number, (middle, sides) in enumerate(BOXES):
+    for number, (middle, sides) in enumerate(boxes):
         matrix = np.diag([*sides, 1.0])
         matrix[:3, 3] = middle
         shape, color = cube(1.0), linear_color(FACE_COLORS[number % len(FACE_COLORS)])
         colors = np.tile(color, (len(shape.positions), 1))
         meshes.append(replace(shape, transform=matrix, colors=colors, name=f"box {number}"))
+    return tuple(meshes)
+
+
+def boxes_behind_wall() -> Scene:
+    """Return a wall before boxes, each a mesh. Four are hidden; one of these is kept, as its texels reach below."""
     camera = Camera(eye=np.array([0.0, 1.6, 0.0]), target=np.array([0.0, 1.6, -1.0]), near=0.5, far=28.0)
     weak = DirectionalLight(np.array([-0.5, -0.3, -0.9]), np.full(3, 0.4))
-    return Scene(tuple(meshes), camera, (sun(), weak), TEACHING_SIZE)
+    return Scene(colored_boxes(BEHIND_WALL), camera, (sun(), weak), TEACHING_SIZE)
 
 
 def two_boxes() -> Scene:

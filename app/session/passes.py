@@ -13,8 +13,10 @@ from core.shading.environment import FACES
 from core.stages.passes import planned_passes
 
 NO_PASS = (
-    "This picture needs no pass: choose a shadow map, reflections by a map, or a depth test with a prepass."
+    "This picture needs no pass: choose shadows or reflections by a map, a prepass, or culling by occluders."
 )
+OF_THE_SAME_PIXELS = ("prepass", "occluders")
+"""Passes of the picture's own size: a pixel is looked up at its own place."""
 
 
 def passes_of(document: Document) -> tuple[PlannedPass, ...]:
@@ -80,7 +82,7 @@ def open_pass(session: Session, number: int | None = None) -> None:
         raise ValueError(NO_PASS)
     number = max(looked_into(moment, row), 0) if number is None else number
     chosen, pixel = planned[number], moment.pin
-    if chosen.name != "prepass":
+    if chosen.name not in OF_THE_SAME_PIXELS:
         pixel = next(iter(looked_up_texels(moment, row, number)), None)
     session.open(pass_document(chosen, pixel))
     session.set_stage("blend" if chosen.name == "environment" else "depth")

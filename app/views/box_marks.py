@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from core.culling.traced_occlusion import OCCLUSION_OPERATIONS
 from core.records.arrays import Floats
 from core.trace.stage_trace import StageTrace
 
@@ -11,7 +12,7 @@ MOST_BOXES = 120
 """Boxes that are drawn: the last ones of more."""
 _WAY = (0, 1, 3, 2, 0, 4, 5, 7, 6, 4, -1, 1, 5, -1, 3, 7, -1, 2, 6)
 """Corners of a box along its twelve edges; bit k is the upper end of axis k, -1 lifts the pen."""
-INKS = {"outside": "rejected", "inside": "good", "crossing": "tie"}
+INKS = {"outside": "rejected", "inside": "good", "crossing": "tie", "hidden": "rejected", "kept": "good"}
 """Of a box by its verdict."""
 
 
@@ -27,10 +28,11 @@ class SpaceMark:
     """As of ``widgets.space.scene_view.SceneMark``."""
 
 
-def box_marks(trace: StageTrace, row: int) -> list[SpaceMark]:
+def box_marks(trace: StageTrace, row: int, is_done: bool = True) -> list[SpaceMark]:
     """Return the boxes that the rows up to ``row`` (with it) have made or asked, that of the row in the accent.
 
-    A box that is asked is drawn by its verdict once it has one; boxes beside world space are not drawn.
+    A box that is asked is drawn by its verdict once the last operation of its row is done (``is_done``); boxes beside
+    world space are not drawn.
     """
     from core.culling.traced_objects import VERDICTS  # Trees come along: most scenes are drawn without.
 
@@ -38,6 +40,8 @@ def box_marks(trace: StageTrace, row: int) -> list[SpaceMark]:
     if not grown.is_world:
         return []
     node, kind = int(columns["node"][row]), trace.kind_of(row)
+    if kind in OCCLUSION_OPERATIONS:
+        return _against_occluders(trace, row, is_done)
     if not kind.startswith("box-"):
         first = max(node - MOST_BOXES, 0)
         return [
@@ -48,9 +52,27 @@ def box_marks(trace: StageTrace, row: int) -> list[SpaceMark]:
     first = max(visit - MOST_BOXES, 0)
     asked = zip(objects.visited[first:visit].tolist(), objects.verdict[first:visit].tolist(), strict=True)
     what = f"{columns['plane'][row]} plane" if kind != "box-verdict" else str(columns["box_verdict"][row])
-    what = "outside the " + what if kind == "box-outside" else what
+    what = "outside the " + what if kind == "box-outside" and is_done else what
     marks = [_box(trace, other, INKS[VERDICTS[verdict]]) for other, verdict in asked]
     return [*marks, _box(trace, node, "accent", what)]
+
+
+def _against_occluders(trace: StageTrace, row: int, is_done: bool) -> list[SpaceMark]:
+    """Return the occluders chosen so far, or those of all boxes that have been compared, by their verdicts."""
+    occlusion, columns = trace.extra["culled"].objects.occlusion, trace.columns
+    boxes, place, rank = occlusion.boxes, int(columns["compared"][row]), int(columns["occluder_rank"][row])
+    if rank >= 0 or place < 0:
+        chosen = occlusion.occluders if rank < 0 else occlusion.occluders[:rank]
+        marks = [_box(trace, int(node), "good") for node in boxes.node[chosen][-MOST_BOXES:]]
+        return marks + (
+            [_box(trace, int(boxes.node[place]), "accent", f"occluder {rank + 1}")] if rank >= 0 else []
+        )
+    verdicts = np.where(occlusion.tests.is_hidden, "hidden", "kept")
+    before = range(max(place - MOST_BOXES, 0), place)
+    marks = [_box(trace, int(boxes.node[other]), INKS[verdicts[other]]) for other in before]
+    what = "hidden behind the occluders" if verdicts[place] == "hidden" else "kept"
+    what = what if is_done else "node"
+    return [*marks, _box(trace, int(boxes.node[place]), "accent", what)]
 
 
 def _box(trace: StageTrace, node: int, ink: str, what: str = "") -> SpaceMark:

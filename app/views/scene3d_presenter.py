@@ -32,12 +32,12 @@ from app.views.view_space import (
     make_space,
     move_corner_to,
     step_marks,
-    with_triangles,
 )
 from core.fast_path.workers import BandWorkers
 from core.records.arrays import Integers
 from core.records.words import counted, nouns
 from core.scene import AnyScene, Scene
+from core.stages.chosen_triangles import with_triangles
 from core.transform.traced import is_dropped
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.space.orbit import Orbit, fitted

@@ -16,16 +16,18 @@ from app.views.box_marks import SpaceMark, box_marks
 from core.clipping.planes import clip_segments
 from core.clipping.sutherland_hodgman import DEPTH_PLANES, clip_primitives
 from core.culling.culling import KEPT, REASONS, plane_distances
+from core.culling.traced import WITH_BOX
 from core.records.arrays import Floats, Integers, cached_property
 from core.records.primitives import Primitives, own_corners
 from core.records.words import nouns
-from core.scene import AnyScene, Camera, ClipScene, Mesh, Scene
+from core.scene import AnyScene, Camera, ClipScene, Scene
+from core.stages.chosen_triangles import with_triangles
 from core.stages.declared import GEOMETRY_STAGES, STAGES
 from core.tessellation.scheme import scheme_of
 from core.trace import scene_triangle_count
 from core.transform.matrices import projection, transform, world_to_camera
 from core.transform.traced import SPACES, is_dropped, spaces_reached, triangles_done
-from core.transform.vertex_stage import VertexStage, vertex_normals
+from core.transform.vertex_stage import VertexStage
 from lessons.scene_edits import check_not_made, set_clip_corner
 from widgets.space.orbit import Orbit
 
@@ -197,40 +199,6 @@ def thinned(scene: AnyScene, limit: int) -> tuple[AnyScene, Integers]:
     return with_triangles(scene, chosen), chosen
 
 
-def with_triangles(scene: AnyScene, chosen: Integers) -> AnyScene:
-    """Return a scene with some of its triangles, (T',) numbers that rise; a mesh without any is left out."""
-    if isinstance(scene, ClipScene):
-        if scene.table is not None:
-            # Fragments are drawn as points; those of a patch are chosen together.
-            chosen = np.flatnonzero(np.isin(scene.numbers, chosen))
-            scene = replace(scene, kind="points", table=None)
-        assert scene.attributes is not None
-        return replace(scene, clip=scene.clip[chosen], attributes=scene.attributes[chosen], shared=None)
-    meshes, first = [], 0
-    for mesh in scene.meshes:
-        end = first + len(mesh.triangles)
-        of_mesh = chosen[(chosen >= first) & (chosen < end)] - first
-        if len(of_mesh):
-            meshes.append(_mesh_of(mesh, of_mesh))
-        first = end
-    return replace(scene, meshes=tuple(meshes))
-
-
-def _mesh_of(mesh: Mesh, chosen: Integers) -> Mesh:
-    """Return a mesh of some triangles; its normals are those of the whole mesh."""
-    used, triangles = np.unique(mesh.triangles[chosen], return_inverse=True)
-    normals = mesh.normals if mesh.normals is not None else vertex_normals(mesh.positions, mesh.triangles)
-    return replace(
-        mesh,
-        positions=mesh.positions[used],
-        triangles=triangles.reshape(-1, 3),
-        normals=normals[used],
-        uvs=None if mesh.uvs is None else mesh.uvs[used],
-        colors=None if mesh.colors is None else mesh.colors[used],
-        faces=None,
-    )
-
-
 def move_corner_to(space: ViewSpace, triangle: int, corner: int, place: Floats) -> AnyScene:
     """Return the scene with a corner at a place (3,) of the space that is shown.
 
@@ -350,7 +318,7 @@ def _facing_marks(moment: Moment, space: ViewSpace, position: int) -> list[Space
     culled, triangles = source.geometry.culled, source.geometry.assembled.triangle
     row, done = trace.steps.row_at(position)
     if row >= 0 and trace.triangle[row] < 0:
-        return box_marks(trace, row)
+        return box_marks(trace, row, done == len(trace.steps.operations[trace.kind_of(row)]) - 1)
     current = -1 if row < 0 else int(np.flatnonzero(triangles == trace.triangle[row])[0])
     kept = np.flatnonzero(culled.verdict[: triangles_done(trace, position)] == KEPT)
     has_arrows = len(kept) <= MOST_MARKS and source.scene.corner_count == 3
@@ -360,7 +328,7 @@ def _facing_marks(moment: Moment, space: ViewSpace, position: int) -> list[Space
         return marks
     triangle, kind = int(triangles[current]), trace.kind_of(row)
     name = f"{nouns(source.scene.corner_count).one} {triangle}"
-    marks += _outlines(space, triangle) + (box_marks(trace, row)[-1:] if kind == "with-its-box" else [])
+    marks += _outlines(space, triangle) + (box_marks(trace, row)[-1:] if kind in WITH_BOX else [])
     facing = float(culled.side[current])
     what = f"area {facing / 2:+.4g}" if culled.sight is None else f"N · V {-facing:+.4g}"
     operations = [operation.name for operation in trace.steps.operations.get(kind, ())]
@@ -371,7 +339,7 @@ def _facing_marks(moment: Moment, space: ViewSpace, position: int) -> list[Space
         marks.append(SpaceMark(space.corners(triangle).mean(axis=0)[None], "accent", label, "cross"))
     elif not is_known:
         marks.append(SpaceMark(space.corners(triangle).mean(axis=0)[None], "accent", name))
-    elif kind not in ("behind", "plane", "with-its-box") and source.scene.corner_count == 3:
+    elif kind not in ("behind", "plane", *WITH_BOX) and source.scene.corner_count == 3:
         at = slice(current, current + 1)
         marks += _arrows(space, triangles[at], culled.side[at], "accent", f"{name}: {side}")
     else:

@@ -162,7 +162,7 @@ def at_sample(geometry: Geometry, sample: int) -> Geometry:
 
 def finer_settings(settings: Settings) -> Settings:
     """Return the settings that samples are drawn with: each is in the middle of its square."""
-    return replace(settings, antialiasing="none", pixel_center="half")
+    return replace(resolve(settings).of_one_sample, pixel_center="half")
 
 
 def in_squares(geometry: Geometry, settings: Settings, side: int) -> Geometry:

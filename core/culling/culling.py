@@ -89,10 +89,10 @@ def has_bits(code: Outcodes, bits: int) -> Flags:
 # Culling: triangles that need not be drawn, each with its reason.
 
 
-KEPT, BACK_FACING, FRONT_FACING, DEGENERATE, BEHIND_EYE, OUTSIDE_PLANE, WITH_ITS_BOX = range(7)
+KEPT, BACK_FACING, FRONT_FACING, DEGENERATE, BEHIND_EYE, OUTSIDE_PLANE, WITH_ITS_BOX, HIDDEN = range(8)
 REASONS = (
     *("kept", "back-facing", "front-facing", "degenerate", "behind-eye", "outside-plane"),
-    "with-its-box",
+    *("with-its-box", "behind-occluders"),
 )
 
 PLANES = ("near", "far", "left", "right", "bottom", "top")
@@ -135,7 +135,7 @@ class CullVerdicts:
         """(T,) bool."""
         is_outside = has_bits(self.shared_outcode, PLANE_BITS | BEHIND_BIT)
         culled: Flags = self.drops | (self.facing == 0) | is_outside
-        return ~culled if self.objects is None else ~(culled | (self.dropped_by >= 0))
+        return ~culled if self.objects is None else ~(culled | (self.dropped_by >= 0) | self.is_hidden)
 
     @cached_property
     def dropped_by(self) -> Integers:
@@ -145,6 +145,13 @@ class CullVerdicts:
         return self.objects.dropped_by.take(self.assembled.triangle)
 
     @cached_property
+    def is_hidden(self) -> Flags:
+        """(T,) bool, its object is hidden behind occluders."""
+        if self.objects is None:
+            return np.zeros(len(self.assembled), bool)
+        return self.objects.is_hidden.take(self.assembled.triangle)
+
+    @cached_property
     def verdict(self) -> Integers:
         """(T,) int64, an index of ``REASONS``; the first that applies of box, behind, outside, degenerate, facing."""
         verdict = np.where(self.drops, np.where(self.side > 0, FRONT_FACING, BACK_FACING), KEPT)
@@ -152,6 +159,7 @@ class CullVerdicts:
         verdict[has_bits(self.shared_outcode, PLANE_BITS)] = OUTSIDE_PLANE
         verdict[has_bits(self.shared_outcode, BEHIND_BIT)] = BEHIND_EYE
         verdict[self.dropped_by >= 0] = WITH_ITS_BOX
+        verdict[self.is_hidden] = HIDDEN
         return verdict
 
     @cached_property

@@ -12,7 +12,8 @@ LMU, *Computer Graphics 1*, "Culling": "View frustum culling: do not render obje
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,6 +21,9 @@ from core.culling.culling import PLANE_COEFFICIENTS, PLANES
 from core.methods import method
 from core.records.arrays import Flags, Floats, Integers
 from core.records.box_tree import BoxTree
+
+if TYPE_CHECKING:
+    from core.culling.occlusion import Occlusion
 
 ROUNDING = 2.0**-45
 """Bound of the rounding in two matrices and a distance, as a share of the sizes of all terms: 256 roundings."""
@@ -146,11 +150,36 @@ class ObjectCulling:
     """(T,) int64, the plane that all boxes of an object lie outside of, -1: it is not dropped."""
     dropped_in: Integers
     """(T,) int64, the node that it is dropped with, the first of several; -1: it is not."""
+    is_hidden: Flags
+    """(T,) bool, all boxes of an object are hidden behind occluders."""
+    occlusion: "Occlusion | None" = None
+    """What compared boxes with occluders; ``None``: none was."""
 
     @property
     def is_dropped(self) -> Flags:
         """(T,) bool."""
-        return np.asarray(self.dropped_by >= 0)
+        return np.asarray((self.dropped_by >= 0) | self.is_hidden)
+
+    @property
+    def kept_leaves(self) -> Integers:
+        """(L,) int64, the leaves with objects that lie outside of no plane, nor does what they lie in."""
+        is_kept = self.tree.is_leaf & (self.tree.count > 0)
+        for node in self.visited[self.verdict == OUTSIDE].tolist():
+            is_kept[node : self.tree.subtree_end[node]] = False
+        return np.flatnonzero(is_kept)
+
+    def hiding(self, occlusion: "Occlusion") -> "ObjectCulling":
+        """Return the same, which also drops objects all leaves of which are hidden."""
+        hidden = occlusion.boxes.node[occlusion.tests.is_hidden]
+        items = np.concatenate([*map(self.tree.items_of, hidden.tolist()), np.empty(0, np.int64)])
+        count = len(self.is_hidden)
+        is_hidden = np.bincount(items, minlength=count) == np.bincount(self.tree.items, minlength=count)
+        is_hidden &= np.isin(np.arange(count), items)
+        dropped_in = self.dropped_in.copy()
+        first = np.full(count, -1)
+        first[items[::-1]] = np.repeat(hidden, self.tree.count[hidden])[::-1]
+        dropped_in[is_hidden] = first[is_hidden]
+        return replace(self, is_hidden=is_hidden, dropped_in=dropped_in, occlusion=occlusion)
 
     @property
     def one_by_one_count(self) -> int:
@@ -202,7 +231,8 @@ def cull_objects(
         np.array(numbers, np.int64) for numbers in (visited, verdicts, visits, asked)
     )
     dropped = _dropped(tree, nodes, of_nodes, visit, planes_asked, object_count)
-    return ObjectCulling(tree, planes, sides, nodes, of_nodes, visit, planes_asked, *dropped)
+    none = np.zeros(object_count, bool)
+    return ObjectCulling(tree, planes, sides, nodes, of_nodes, visit, planes_asked, *dropped, none)
 
 
 def _dropped(

@@ -6,6 +6,7 @@ from core.coverage.snapping import place_corners
 from core.culling.culling import DEGENERATE, KEPT, PLANES, REASONS, cull_verdict
 from core.culling.normal_view import NormalView, cofactors, face_normals
 from core.culling.object_culling import box_against_planes
+from core.culling.occlusion import box_behind_occluders
 from core.methods import table
 from core.records.arrays import Integers
 from core.records.listing import RETURN, Operation, listing
@@ -13,7 +14,9 @@ from core.records.steps import Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels
 
-KINDS: tuple[str, ...] = ("behind", "plane", "degenerate", "facing", "kept", "with-its-box")
+WITH_BOX = ("with-its-box", "behind-occluders")
+"""Kinds of rows about a triangle that is dropped with a box, before tests of its own."""
+KINDS: tuple[str, ...] = ("behind", "plane", "degenerate", "facing", "kept", *WITH_BOX)
 """What rows may be about; the method decides by what the facing is tested."""
 
 
@@ -34,8 +37,8 @@ def trace_cull(source: TraceSource) -> StageTrace:
     outside[:, culled.plane_count :] = False
 
     # Tests 0: behind, 1 to 6: planes, 7: degenerate, 8: facing, 9: kept; each runs if none before applied.
-    # Alone: 10, with its box.
-    applies = np.zeros((count, 11), bool)
+    # Alone: 10, with its box; 11, behind occluders.
+    applies = np.zeros((count, 12), bool)
     applies[:, 0] = behind
     applies[:, 1:7] = outside
     applies[:, 7] = culled.facing == 0
@@ -45,10 +48,11 @@ def trace_cull(source: TraceSource) -> StageTrace:
     corner_count = vertices.corner_count
     if corner_count < 3:
         runs[:, 7:9] = False
-    applies[:, 10] = is_boxed = culled.dropped_by >= 0
-    runs[is_boxed], runs[:, 10] = False, is_boxed
+    alone = np.stack([culled.dropped_by >= 0, culled.is_hidden], axis=1)
+    runs[alone.any(axis=1)] = False
+    applies[:, 10:] = runs[:, 10:] = alone
     which, test = np.nonzero(runs)
-    kind = np.array([0, *[1] * 6, 2, 3, 4, 5])[test]
+    kind = np.array([0, *[1] * 6, 2, 3, 4, 5, 6])[test]
     plane = np.where(test == 10, culled.dropped_by[which], np.clip(test - 1, 0, 5))
     verdict = np.array(REASONS)[culled.verdict]
     columns = {
@@ -70,6 +74,7 @@ def trace_cull(source: TraceSource) -> StageTrace:
     if culled.objects is not None:
         columns["node"] = culled.objects.dropped_in[assembled.triangle[which]]
         listings["with-its-box"] = listing(box_against_planes)
+        listings["behind-occluders"] = listing(box_behind_occluders)
     sight = culled.sight
     if sight is not None:
         columns |= _normal_view(sight, which)
@@ -87,6 +92,7 @@ def trace_cull(source: TraceSource) -> StageTrace:
             "facing": (Operation("test", "facing", (), ("facing", "applies", "verdict")),),
             "kept": (Operation("verdict", "kept", {"verdict": RETURN}),),
             "with-its-box": (Operation("drop", "dropped", (), ("plane", "node", "applies", "verdict")),),
+            "behind-occluders": (Operation("drop", "compare", (), ("node", "applies", "verdict")),),
         },
         triangle_ends=ends_of(which),
         group_ends=ends_of(which, kind),

@@ -43,6 +43,11 @@ def in_front_of(found: StageTrace, group: Integers, source: TraceSource, grown: 
     building = building_rows(grown, source.settings)
     objects = source.geometry.culled.objects
     if objects is not None:
+        if objects.occlusion is not None:
+            from core.culling.traced_occlusion import occlusion_rows  # Only occluders wait for it.
+
+            comparing = occlusion_rows(objects.tree, objects.occlusion)
+            found, group = insert_rows(found, group, comparing), np.concatenate([comparing.group, group])
         walking = walking_rows(objects)
         found, group = insert_rows(found, group, walking), np.concatenate([walking.group, group])
     return replace(insert_rows(found, group, building), extra={**found.extra, "object_tree": grown})

@@ -287,6 +287,9 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     ("cull", "with-its-box"): lambda v: (
         f"culled with node {v['node']}, whose box lies {PLANES[v['plane']]}{_would(v)}"
     ),
+    ("cull", "behind-occluders"): lambda v: (
+        f"culled with node {v['node']}, whose box is hidden behind the occluders{_would(v)}"
+    ),
     ("clip", "no-clipping"): "not clipped",
     ("clip", "inside"): "not clipped: inside all planes",
     ("clip", "clipped"): _clipped,
@@ -362,6 +365,7 @@ COUNTED = {
     "behind-eye": "culled, behind the eye",
     "outside-plane": "culled, outside the view",
     "with-its-box": "culled with a box outside the view",
+    "behind-occluders": "culled with a box behind the occluders",
     "clipped-away": "clipped away",
     "no-fragment": "no fragment here",
     "outside-box": "the pixel is outside their bounding box",

@@ -41,6 +41,9 @@ from core.transform.matrices import reversed_clip_depth
 if TYPE_CHECKING:
     from core.textures.footprints import EditedSlopes
 
+ROUNDING = 2.0**-44
+"""Bound of the rounding in the depth of a fragment, as a share of its terms: 256 roundings."""
+
 
 # The depth of fragments: window depth, whether it is in range, and what a depth method stores in its place.
 
@@ -89,16 +92,8 @@ def farthest_stored(geometry: Geometry, depth_format: DepthFormat) -> Stored:
     Fragments lie up to a step of snapping beyond the edges of the unsnapped triangle, whose plane has their depth. A
     fragment may be lost where this is not nearer than the cleared value.
     """
-    quantity, clip = depth_format.quantity, geometry.primitives.clip
-    if quantity.plane == "z":
-        plane, at_corners = geometry.depth_plane, geometry.depth.T
-    else:
-        is_reversed, value = quantity.plane == "reversed-z", np.ones(clip.shape[:2])
-        plane = geometry.reversed_plane if is_reversed else geometry.inverse_w_plane
-        if is_reversed:
-            value = reversed_clip_depth(clip[..., 2], clip[..., 3], geometry.vertices.view_range)
-        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            at_corners = value / clip[..., 3]
+    quantity = depth_format.quantity
+    plane, at_corners = _plane_and_corners(geometry, quantity)
     beyond = (np.abs(plane[0]) + np.abs(plane[1])) / SUBPIXELS
     if quantity.plane == "z":
         farthest = np.minimum(at_corners.max(axis=1) + beyond, 1.0)
@@ -107,6 +102,60 @@ def farthest_stored(geometry: Geometry, depth_format: DepthFormat) -> Stored:
     stored = _stored(geometry, farthest, depth_format)
     # On an integer plane every step along a row or a column is rounded.
     return np.add(stored, (1 + sum(geometry.vertices.size)) / 2) if depth_format.is_planar else stored
+
+
+def nearest_stored(geometry: Geometry, depth_format: DepthFormat, reach: float) -> Stored:
+    """Return a bound of what is stored of each primitive (P,) before the eye: none of its fragments is nearer.
+
+    Parameters
+    ----------
+    reach : float
+        How many pixels beyond the unsnapped triangle, whose plane has their depth, fragments lie at most.
+    """
+    quantity = depth_format.quantity
+    (a, b, c), at_corners = _plane_and_corners(geometry, quantity)
+    width, height = geometry.vertices.size
+    x, y, w = geometry.corners.homogeneous.transpose(2, 0, 1)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        of_plane = a[:, None] * (x / w) + b[:, None] * (y / w) + c[:, None]
+        ends = np.concatenate([at_corners, of_plane], axis=1)
+        beyond = (np.abs(a) + np.abs(b)) * reach
+        beyond += ROUNDING * (np.abs(a) * width + np.abs(b) * height + np.abs(c))
+        if quantity.plane == "z":
+            nearest = np.clip(np.nan_to_num(ends.min(axis=1) - beyond, nan=-np.inf), 0.0, 1.0)
+        else:
+            nearest = np.maximum(np.nan_to_num(ends.max(axis=1) + beyond, nan=np.inf), 0.0)
+    stored = _stored(geometry, nearest, depth_format)
+    return np.subtract(stored, (1 + width + height) / 2) if depth_format.is_planar else stored
+
+
+def stored_at(geometry: Geometry, clip: Floats, depth_format: DepthFormat) -> Stored:
+    """Return what would be stored (N,) at points before the eye, clip positions (N, 4)."""
+    plane = depth_format.quantity.plane
+    if plane == "z":
+        value = np.clip((clip[:, 2] / clip[:, 3] + 1) / 2, 0.0, 1.0)
+    else:
+        value = _homogeneous(geometry, clip, plane) / clip[:, 3]
+    return _stored(geometry, value, depth_format)
+
+
+def _plane_and_corners(
+    geometry: Geometry, quantity: DepthQuantity
+) -> tuple[tuple[Floats, Floats, Floats], Floats]:
+    """Return the plane of a quantity over the window, (P,) each, and its values at the corners (P, 3)."""
+    if quantity.plane == "z":
+        return geometry.depth_plane, geometry.depth.T
+    clip, is_reversed = geometry.primitives.clip, quantity.plane == "reversed-z"
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        at_corners = _homogeneous(geometry, clip, quantity.plane) / clip[..., 3]
+    return geometry.reversed_plane if is_reversed else geometry.inverse_w_plane, at_corners
+
+
+def _homogeneous(geometry: Geometry, clip: Floats, plane: str) -> Floats:
+    """Return what is linear over the window times w, (...), of clip positions (..., 4): ``inverse-w`` or reversed z."""
+    if plane == "inverse-w":
+        return np.ones(clip.shape[:-1])
+    return np.asarray(reversed_clip_depth(clip[..., 2], clip[..., 3], geometry.vertices.view_range))
 
 
 def fragment_quantity(

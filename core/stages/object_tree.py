@@ -5,7 +5,7 @@ from typing import TypeGuard
 
 import numpy as np
 
-from core.culling.object_culling import ObjectCulling, cull_objects, view_planes
+from core.culling.object_culling import ObjectCulling, cull_objects, frustum, view_planes
 from core.methods import Method
 from core.numeric.watched import work
 from core.records.arrays import Floats, Integers
@@ -96,8 +96,15 @@ def culled_objects(
     assert vertices.projection is not None
     assert vertices.view is not None
     planes = view_planes(vertices.projection, vertices.view)
-    rule = resolve(settings).method("object_culling").function
-    return cull_objects(grown.tree, rule, planes, len(grown.objects), plane_count)
+    method = resolve(settings).method("object_culling")
+    rule = frustum if method.traits == "occlusion" else method.function
+    found = cull_objects(grown.tree, rule, planes, len(grown.objects), plane_count)
+    if method.traits != "occlusion":
+        return found
+    from core.stages.occluders import occlusion_of  # It asks for the geometry of all, which asks for trees.
+
+    assert isinstance(scene, Scene)
+    return found.hiding(occlusion_of(scene, settings))
 
 
 BEYOND = 1 / 128

@@ -9,10 +9,10 @@ import numpy as np
 from core.depth.early_depth import LEFT
 from core.families import mirrors_of
 from core.records.arrays import Floats, read_only
-from core.records.passes import PlannedPass
+from core.records.passes import PlannedPass, without_passes
 from core.resolved import resolve
 from core.scene import AnyScene, Camera, DirectionalLight, Mesh, Scene
-from core.settings import Settings
+from core.settings import Settings, no_effect
 from core.shading.shadow_rays import RayHits
 from core.shading.shadows import BIAS_STEPS, Lamp, MapTests
 from core.stages.before_matrices import before_matrices, still
@@ -44,9 +44,22 @@ def planned_passes(scene: AnyScene, settings: Settings) -> tuple[PlannedPass, ..
         for number in mirrors_of(scene):
             found += environment_passes(scene, settings, number)
     if resolve(settings).shades == LEFT:
-        plain = replace(settings, shading="unlit", depth_test_time="late", shadow="none", environment="none")
+        plain = replace(without_passes(settings), shading="unlit")
         found.append(PlannedPass("prepass", "Depth alone", scene, plain))
+    if hides(scene, settings):
+        from core.stages.occluders import choose_occluders  # Only culling behind occluders waits for it.
+
+        made = before_matrices(scene, settings)
+        assert isinstance(made, Scene)
+        chosen = choose_occluders(made, resolve(settings).settings)
+        found += [chosen.planned] if chosen.planned is not None else []
     return tuple(found)
+
+
+def hides(scene: AnyScene, settings: Settings) -> bool:
+    """Return whether boxes of a scene are compared with occluders."""
+    is_chosen = resolve(settings).method("object_culling").traits == "occlusion"
+    return is_chosen and not no_effect(settings, "object_culling", scene)
 
 
 def shadow_tests(scene: Scene, settings: Settings, position: Floats) -> MapTests | RayHits | None:

@@ -7,6 +7,7 @@ by itself; a better one is added here.
 from core.antialiasing.measured import ANTIALIASING, SHADING, TEXTURE_FILTER
 from core.antialiasing.measured_temporal import TEMPORAL
 from core.coverage.measured import COVERAGE, FILL, ORIENTATION, POLYGON_CLIPPING, POLYGON_FILL
+from core.culling.measured_occlusion import OCCLUDERS
 from core.deformation.measured import SKINNING
 from core.depth.measured import DEPTH_STEPS
 from core.depth.measured_early import DEPTH_TEST_TIME
@@ -52,6 +53,7 @@ OWN = (
     CULL,
     DEPTH_TEST_TIME,
     HIERARCHY,
+    OCCLUDERS,
     SKINNING,
     PRESENTATION,
     FLUSHING,

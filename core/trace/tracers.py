@@ -274,6 +274,5 @@ def _traced(source: TraceSource, name: str) -> StageTrace:
     if name == "resolve" or antialiasing == Settings.antialiasing:
         return tracer_of(name)(source)
     if resolve(source.settings).sampling.count == 1:
-        at_centers = replace(source.settings, antialiasing=Settings.antialiasing)
-        return tracer_of(name)(replace(source, settings=at_centers))
+        return tracer_of(name)(replace(source, settings=resolve(source.settings).of_one_sample))
     return trace_samples(source, name, tracer_of(name))

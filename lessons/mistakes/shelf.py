@@ -12,6 +12,7 @@ from lessons.mistakes import (
     fragments,
     history,
     hit_lists,
+    occluders,
     planes,
     presenting,
     reflections,
@@ -41,6 +42,7 @@ SHELF: dict[str, Twin] = {
         planes,
         boxes,
         hit_lists,
+        occluders,
     )
     for twin in module.TWINS
 }
@@ -62,6 +64,7 @@ RULES: dict[str, WrongRule] = {
         scan_lines,
         hit_lists,
         boxes,
+        occluders,
         smoothing,
         visible_work,
         history,

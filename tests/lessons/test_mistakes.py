@@ -14,6 +14,7 @@ from lessons.mistakes import (
     fragments,
     history,
     hit_lists,
+    occluders,
     planes,
     presenting,
     reflections,
@@ -52,6 +53,7 @@ def test_a_wrong_formula_shows_in_one_place_and_hides_in_another(rule: WrongRule
 def test_names_are_unique_and_unknown_ones_refused() -> None:
     runs = {
         boxes,
+        occluders,
         clipping,
         coverage,
         depths,
@@ -70,6 +72,7 @@ def test_names_are_unique_and_unknown_ones_refused() -> None:
         curves,
         cutting,
         depths,
+        occluders,
         planes,
         reflections,
         scan_conversion,
@@ -84,6 +87,7 @@ def test_names_are_unique_and_unknown_ones_refused() -> None:
         *("front-and-back-swapped", "octant-of-centre", "sorted-after-division"),
         *("list-not-sorted", "sorted-farthest-first"),
         *("reflection-sign", "face-by-signed-largest", "place-not-divided"),
+        *("nearest-in-pyramid", "mean-in-pyramid"),
     }
     assert all(SHELF[name].sentence == RULES[name].sentence for name in both)
     assert len(MISTAKES) == count - len(both) + len(SHADERS)

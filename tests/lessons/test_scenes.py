@@ -75,8 +75,8 @@ def test_the_catalogue():
         "line-strip", "points", "triangle-strip", "polygon", "polygon-holes", "weiler-atherton", "connecting-edges",
         "pentagram", "near-plane", "intersecting", "crossing-glass", "bar-and-wire", "circle-of-bars", "depth-table",
         "four-layers", "two-buffers", "z-fighting", "textured-floor", "moving-camera",
-        "lit-floor", "box-in-light", "mirror-cube", "cube", "boxes-around", "two-boxes",
-        "bent-bar", "twisted-tube", "blended-bar",
+        "lit-floor", "box-in-light", "mirror-cube", "cube", "boxes-around", "boxes-behind-wall",
+        "two-boxes", "bent-bar", "twisted-tube", "blended-bar",
         "curve", "curve-in-depth", "hill", "diced-hill", "diced-ball", "folded-glass", "cracked-patches",
         "teapot", "sphere", "torus", "knot",
     )  # fmt: skip

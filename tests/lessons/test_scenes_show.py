@@ -140,6 +140,11 @@ CLAIMS = {
     "boxes-around": lambda s: (
         not unlike(s, object_culling="none") and np.sum(s.column("cull", "box_verdict") == "outside") >= 5
     ),
+    "boxes-behind-wall": lambda s: (
+        not unlike(s, object_culling="none")
+        and (np.sum(s.column("cull", "is_hidden")), len(set(range(9)) - set(s.ids()[s.ids() >= 0] // 12)))
+        == (3, 4)
+    ),
     "two-boxes": lambda s: (
         not unlike(s, visibility="z-buffer") and {"tree-missed", "tree-leaf"} < s.kinds("depth")
     ),

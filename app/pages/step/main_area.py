@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QBoxLayout, QSizePolicy, QStackedWidget, QTabBar, 
 from app.session.moment import Moment
 from app.session.session import Session
 from app.views.companions import COMPANIONS, Companion, NewDepths, ScreenBeside
+from app.views.occluder_view import OccludersBeside
 from app.views.pass_view import PassBeside
 from app.views.stage_views import StageViews
 from core.explain.step_tables import first_in_table
@@ -78,7 +79,7 @@ class MainArea(QWidget):
         self.views_by_hand: dict[str, str] = {}
         self._moment, self._viewed_stage = session.moment, session.cursor.stage
         self.companions: dict[str, Companion] = {stage: make(session) for stage, make in COMPANIONS.items()}
-        self.companions["pass"] = PassBeside(session)
+        self.companions |= {"pass": PassBeside(session), "occluders": OccludersBeside(session)}
         """What stands beside a stage's own view, by stage."""
         self.beside = QStackedWidget(self)
         for companion in self.companions.values():
@@ -222,6 +223,8 @@ class MainArea(QWidget):
         trace = self._moment.stage_trace
         if stage in ("depth", "transform") and first_in_table(trace) < trace.steps.row_count:
             return self.companions["order"]
+        if stage == "cull" and self.companions["occluders"].is_wanted(self._moment):
+            return self.companions["occluders"]
         if stage == "shade" and self.companions["pass"].is_wanted(self._moment):
             return self.companions["pass"]
         return self.companions.get(stage)

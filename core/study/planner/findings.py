@@ -155,6 +155,8 @@ class Seen:
     """Least and greatest window depth; ``None``: nothing is in view."""
     far: dict[str, Integers]
     """By depth method, the triangles of which a fragment may be lost, see `far_triangles`."""
+    hidden: tuple[int, int] | None
+    """Triangles hidden behind the largest meshes, and how many such occluders; ``None``: there are no other meshes."""
     bias: tuple[str, float] | None
     """The shadow bias of the settings, and the share of the lit surface that needs no more; ``None``: no map."""
     reflection: tuple[float, float] | None
@@ -203,6 +205,7 @@ def look(scene: AnyScene, everything: Settings, regions: tuple[tuple[int, int, i
         pixels=scene.size[0] * scene.size[1],
         depth=(float(depth.min()), float(depth.max())) if depth.size else None,
         far=far_triangles(geometry),
+        hidden=_hidden(scene, everything),
         bias=_bias(scene, everything),
         reflection=_reflection(scene, everything, geometry),
         texels=_longest_step(geometry, scene),
@@ -240,6 +243,10 @@ def facts_of(seen: Seen) -> tuple[Fact, ...]:
     if seen.corner_count < 3:
         # Without an area nothing faces away, and nothing is closed.
         facts = [fact for fact in facts if fact.name not in ("backs", "closed")]
+    if seen.hidden is not None:
+        hidden, occluders = seen.hidden
+        behind = f"Triangles hidden behind {counted(occluders, 'large mesh', 'large meshes')}"
+        facts.append(Fact("hidden", behind, f"{hidden:,} of {seen.triangles:,}"))
     if seen.bias is not None:
         bias, share = seen.bias
         facts.append(
@@ -260,6 +267,19 @@ def facts_of(seen: Seen) -> tuple[Fact, ...]:
             )
         )
     return tuple(facts)
+
+
+def _hidden(scene: AnyScene, settings: Settings) -> tuple[int, int] | None:
+    """Return how many triangles occlusion culling drops with their meshes, and how many occluders it draws."""
+    if not isinstance(scene, Scene) or scene.program is not None or len(scene.meshes) < 2:
+        return None
+    if not all(mesh.is_affine for mesh in scene.meshes):
+        return None
+    chosen = replace(DEFAULTS, object_culling="occlusion", hierarchy="none", occluders=settings.occluders)
+    culled = process_geometry(scene, chosen, {stage: StageCount() for stage in STAGES}).culled.objects
+    assert culled is not None
+    assert culled.occlusion is not None
+    return int(np.count_nonzero(culled.is_hidden)), len(culled.occlusion.occluders)
 
 
 def _bias(scene: AnyScene, settings: Settings) -> tuple[str, float] | None:

@@ -177,6 +177,12 @@ def traces() -> dict[str, dict[str, Trace]]:
     for name in table.names("hierarchy"):
         asked = Settings(object_culling="frustum", hierarchy=name, leaf_size=16, octree_depth=2)
         windows[f"boxes {name}"] = trace(boxes, asked, 50, (30, 20, *WINDOW), before="cleared")
+    behind = Settings(object_culling="occlusion", hierarchy="none", occluders=1)
+    for settings in (behind, replace(behind, depth="inverse-w"), replace(behind, blend="over")):
+        wall = make_scene("boxes-behind-wall")
+        windows[f"wall {name_of(settings.differences(behind))}"] = trace(
+            wall, settings, 24, (30, 20, *WINDOW)
+        )
     for name in table.names("shadow")[1:]:
         shaded = Settings(shadow=name, map_size=16)
         windows[f"shadow {name}"] = trace(make_scene("box-in-light"), shaded, 0, (22, 26, 8, 1))

@@ -135,6 +135,7 @@ UNMARKED = {
     *("clip.untouched.keep", "bin.whole-image.keep"),
     *("shade.lit.albedo", "shade.mirror.albedo", "shade.lit.interpolated", "shade.textured-lit.interpolated"),
     *("depth.cell.depth", "depth.store.depth"),
+    *("cull.no-occluder.none", "cull.pyramid-bottom.drawn"),
     *("resolve.mixed.history", "resolve.limited.history"),
     *(f"blend.{kind}.source" for kind in ("over", "additive", "line-over", "line-additive")),
 }

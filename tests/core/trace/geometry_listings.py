@@ -9,6 +9,8 @@ from core.coverage.edges import edge_coefficients, edge_value
 from core.coverage.snapping import anchored_coefficients, edge_left_out, snap_one
 from core.culling.culling import cull_verdict
 from core.culling.object_culling import box_against_planes
+from core.culling.occlusion import box_behind_occluders, coarser_level, largest_boxes
+from core.culling.traced import WITH_BOX
 from core.methods import table
 from core.trace import Trace
 from core.trace.stage_trace import StageTrace
@@ -37,13 +39,14 @@ def check_cull(traced: Trace) -> None:
     assembled = traced.source.geometry.assembled
     drops = {"none": lambda f: False, "back": lambda f: f < 0, "front": lambda f: f > 0}
     _check_boxes(found)
+    _check_occlusion(found)
     ends = found.steps.triangle_ends
     starts = [0, *ends[:-1].tolist()]
     if found.triangle[0] < 0:
         starts, ends = starts[1:], ends[1:]
     for triangle, start, row in zip(assembled.triangle.tolist(), starts, (ends - 1).tolist(), strict=True):
         facing = found.columns["facing"][row]
-        if found.kind_of(row) == "with-its-box":
+        if found.kind_of(row) in WITH_BOX:
             continue
         # Culling by N . V goes by its own side, where there is one.
         seen = -found.columns["product"][row] if "product" in found.columns else facing
@@ -74,6 +77,37 @@ def _check_boxes(found: StageTrace) -> None:
         assert len(crossed) == (0 if verdict == "outside" else np.count_nonzero(c["is_crossed"][rows]))
         for row in rows:
             check_marks(found, row, ran)
+
+
+def _check_occlusion(found: StageTrace) -> None:
+    """Run the listings of occluders, levels and compared boxes on their rows."""
+    culled = found.extra["culled"]
+    if (
+        culled.objects is None
+        or culled.objects.occlusion is None
+        or not len(culled.objects.occlusion.occluders)
+    ):
+        return
+    occlusion, c = culled.objects.occlusion, found.columns
+    boxes, tests = occlusion.boxes, occlusion.tests
+    nearer, farther = (max, min) if occlusion.larger_is_nearer else (min, max)
+    pyramid = [level.tolist() for level in tests.pyramid]
+    on_screen = np.flatnonzero(~boxes.is_before)
+    for row in rows_of_kind(found, "occluder"):
+        chosen = largest_boxes(boxes.rectangle[on_screen].tolist(), len(occlusion.occluders))
+        assert on_screen[chosen].tolist() == occlusion.occluders.tolist()
+        left, low, right, high = c["box_rectangle"][row].tolist()
+        assert c["box_pixels"][row] == len(range(left, right + 1)) * len(range(low, high + 1))
+    for row in rows_of_kind(found, "pyramid-level"):
+        level = int(c["made_level"][row])
+        assert coarser_level(pyramid[level - 1], farther) == pyramid[level]
+        assert c["keeps_farthest"][row]
+    for kind in ("near-box", "seen-box", "hidden-box"):
+        for row in rows_of_kind(found, kind):
+            box = int(c["compared"][row])
+            is_before, slack = bool(boxes.is_before[box]), float(boxes.slack[box])
+            given = boxes.corners[box].tolist(), is_before, boxes.reach, slack, pyramid, nearer, farther
+            assert box_behind_occluders(*given) == (kind == "hidden-box") == c["is_hidden"][row]
 
 
 def kinds_named(found: StageTrace, *names: str) -> list[int]:

@@ -104,6 +104,7 @@ LEFT_OUT = (
     "box-in-light",
     "mirror-cube",
     "boxes-around",
+    "boxes-behind-wall",
     "two-boxes",
     "teapot",
     "sphere",

@@ -57,6 +57,7 @@ AGAINST: Mapping[str, Mapping[str, tuple[str, ...]]] = {
         "ray-casting-tree": ("ray-casting-by-pixel",),
         "ray-casting-by-pixel": ("z-buffer",),
     },
+    "object_culling": {"frustum": ("none",), "occlusion": ("frustum",)},
     "depth_test_time": {"early": ("late",), "prepass": ("early",)},
     "shadow": {"map": ("rays",), "map-average": ("map",), "rays": ("map",)},
     "environment": {"cube": ("rays",), "rays": ("cube",)},
@@ -71,6 +72,7 @@ AGAINST: Mapping[str, Mapping[str, tuple[str, ...]]] = {
 """Family and method to what it is compared with in the lectures, though both may end with the same picture."""
 SHOWN_IN = {
     "visibility": ("depth",),
+    "object_culling": ("cull",),
     "depth_test_time": ("shade", "depth"),
     "shadow": ("shade",),
     "environment": ("shade",),

@@ -16,7 +16,9 @@ from app.session.passes import (
     shaded_row,
 )
 from app.session.session import Session
+from app.views.occluder_view import OccludersBeside
 from app.views.pass_view import PassBeside
+from app.views.view_space import make_space, step_marks
 from core import Settings, render
 from core.stages.passes import drawn_depth
 from lessons.scenes import make_scene
@@ -112,6 +114,38 @@ def test_beside_the_mirror_the_shadow_map_is_shown_or_the_first_face(qtbot):
         beside.refresh(session.moment)
         assert beside.grid.accessibleName().startswith(expected)
         assert passes_to_open(session.moment, (30, 1)) == ([0] if settings else [])
+
+
+def test_the_pyramid_stands_beside_cull_and_its_bottom_opens(qtbot):
+    settings = Settings(object_culling="occlusion", hierarchy="none", occluders=1)
+    session = Session(
+        open_document(make_scene("boxes-behind-wall"), "Boxes behind a wall", settings=settings)
+    )
+    beside = OccludersBeside(session)
+    qtbot.addWidget(beside.widget)
+    session.set_stage("cull")
+    space = make_space(session.trace.source.scene, session.trace.source.geometry.vertices)
+    stage, before = session.trace.stage("cull"), session.document
+    row = int(np.flatnonzero(stage.steps.kind == stage.steps.kinds.index("hidden-box"))[0])
+    said, labels = [], []
+    for position in range(int(stage.steps.starts[row]) + 1, int(stage.steps.starts[row + 1]) + 1):
+        session.go_to(position)
+        beside.refresh(session.moment)
+        said.append((beside.grid.buffer().values.shape, beside.grid.accessibleDescription()))
+        labels.append(step_marks(session.moment, space)[-1].label)
+    nothing = "No texel is compared."
+    assert said[:3] == [((48, 64), nothing), ((48, 64), nothing), ((6, 8), nothing)]
+    assert said[3:] == [((6, 8), "Compared with: (3, 2), (4, 2), (3, 3) and (4, 3).")] * 2
+    assert labels == [*["node 2"] * 4, "node 2: hidden behind the occluders"], (
+        "the verdict is told when it is made"
+    )
+    open_pass(session, [planned.name for planned in passes_of(before)].index("occluders"))
+    assert (session.document.title, session.cursor.stage) == ("The occluders", "depth")
+    assert len(session.document.scene.meshes) == 1
+    session.undo()
+    assert session.document is before
+    session.set_stage("raster")
+    assert not beside.is_wanted(session.moment)
 
 
 def test_without_a_pass_there_is_a_sentence(qtbot):
