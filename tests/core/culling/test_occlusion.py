@@ -16,7 +16,7 @@ from core.methods import table
 from core.records.frame import StageCount
 from core.records.passes import PlannedPass
 from core.resolved import resolve
-from core.scene import Camera, Scene
+from core.scene import Camera, Mesh, Scene
 from core.stages.fragments import nearest_stored
 from core.stages.geometry import farthest_from_grid
 from core.stages.needs import refusal
@@ -318,3 +318,23 @@ def test_boxes_in_what_lies_outside_a_plane_are_not_compared() -> None:
     assert inner
     below = np.concatenate([np.arange(node, tree.subtree_end[node]) for node in outside])
     assert objects.occlusion.boxes.node.tolist() == np.setdiff1d(np.flatnonzero(tree.is_leaf), below).tolist()
+
+
+@pytest.mark.parametrize("seed", [0, 4])
+def test_plates_seen_edge_on_are_kept_where_snapping_takes_them_before_the_wall(seed: int) -> None:
+    """The nearest depth of their boxes alone would not do: a hair beside such a plate its plane is before the wall."""
+    random, across = np.random.default_rng(seed), np.tan(np.pi / 8) * 4 / 3
+    distance, up = np.array([2.3, 2.3, 9.0, 9.0]), np.array([-0.2, 0.2, 0.2, -0.2])
+    wall = replace(cube(1.0), positions=cube(1.0).positions * (8, 8, 0.1) + (0, 0, -2))
+    plates = []
+    for column in range(4, 28):
+        x = ((column + 0.5) / 16 - 1 + random.normal(0, 0.002, 4) / 16) * across * distance
+        places = np.stack([x, up * distance, -distance], axis=1)
+        plates.append(Mesh(places, np.array([[0, 1, 2], [0, 2, 3]])))
+    camera = Camera(np.zeros(3), np.array([0, 0, -1.0]), near=1, far=20, field_of_view=np.pi / 4)
+    scene = Scene((wall, *plates), camera, (), (32, 24))
+    assert (render(scene, BEHIND).primitive >= 12).any(), "one is seen through the wall"
+    assert same_picture(scene, BEHIND)
+    boxes = culled(scene, BEHIND).occlusion.boxes
+    is_behind = boxes.node > 0
+    assert (boxes.nearest + boxes.slack)[is_behind].min() > boxes.corners[0, :, 2].max()
