@@ -66,7 +66,7 @@ class Settings(Choices):
         "Occluders",
         1024,
         (1, 2, 4, 8, 16, 32),
-        "{0} boxes",
+        "{0} drawn first",
         taken_by="object_culling",
         otherwise="Only occlusion culling draws occluders.",
     )
