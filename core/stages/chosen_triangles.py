@@ -10,7 +10,7 @@ from core.transform.vertex_stage import vertex_normals
 
 
 def with_triangles(scene: AnyScene, chosen: Integers) -> AnyScene:
-    """Return a scene with some of its triangles, (T',) numbers that rise; a mesh without any is left out."""
+    """Return a scene with some of its triangles, (K,) numbers that rise; a mesh without any is left out."""
     if isinstance(scene, ClipScene):
         if scene.table is not None:
             # Fragments are drawn as points; those of a patch are chosen together.

@@ -8,7 +8,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core import STAGES, ClipScene, Settings, render, trace
-from core.culling.measured_occlusion import OccludersTask, walls_before_boxes
 from core.culling.object_culling import OUTSIDE, ObjectCulling
 from core.culling.occlusion import BoxesOnScreen, compare_with_pyramid, occlusion, pyramid_of
 from core.fast_path.draw import draw_picture
@@ -211,7 +210,7 @@ def test_the_occluders_are_a_pass_beside_others() -> None:
 @pytest.mark.parametrize("antialiasing", table.names("antialiasing"))
 def test_samples_beside_the_centres_are_drawn_without_occluders(antialiasing: str) -> None:
     scene = replace(make_scene("boxes-behind-wall"), size=(32, 24))
-    chosen = replace(BEHIND, antialiasing=antialiasing, pixel_center="integer", samples_across=1, pictures=2)
+    chosen = replace(BEHIND, antialiasing=antialiasing, pixel_center="integer", pictures=2)
     assert same_picture(scene, chosen)
     frame, run = render(scene, chosen), trace(scene, chosen)
     is_plain = antialiasing in ("none", "fxaa")
@@ -249,16 +248,6 @@ def test_scenes_without_meshes_have_nothing_to_hide_with() -> None:
 def test_a_number_of_occluders_that_is_none_is_refused(number: object) -> None:
     with pytest.raises(ValueError, match="occluders must be a whole number from 1 to 1024, got"):
         replace(BEHIND, occluders=number)
-
-
-def test_more_occluders_hide_more_and_cost_more() -> None:
-    few, many = (OccludersTask(walls_before_boxes(40, 1), count) for count in (1, 8))
-    chosen = Settings(object_culling="occlusion", shading="unlit")
-    counts = [task.counts(chosen, task.start(chosen)()) for task in (few, many)]
-    assert [count["triangles of the pass"] for count in counts] == [12, 96]
-    assert 0 < counts[0]["boxes hidden"] < counts[1]["boxes hidden"]
-    assert counts[0]["triangles drawn"] > counts[1]["triangles drawn"]
-    assert not many.judge(chosen, many.start(chosen)()).wrong.any()
 
 
 def test_the_plan_counts_what_the_largest_meshes_hide() -> None:

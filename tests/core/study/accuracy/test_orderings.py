@@ -13,7 +13,7 @@ from tests.core.study.accuracy.untimed_runs import run
 
 PUBLISHED = {"orientation", "depth-steps"}
 """Families that are published tests: ``test_published`` derives them."""
-CHOICES = {"object_culling", "polygon_mode", "pixel_center", "provoking", "wrap", "blend"}
+CHOICES = {"polygon_mode", "pixel_center", "provoking", "wrap", "blend"}
 """Families that choose what is to be seen, and share one derivation."""
 
 
@@ -345,6 +345,16 @@ def test_hierarchy() -> None:
         assert counts[name]["triangles asked"] < counts["none"]["triangles asked"] / 10
     assert counts["octree"]["references"] > 120
     assert {each.errors["wrong-visible"] for each in trees.values()} == {0}
+
+
+def test_occluders() -> None:
+    # Each wall is a box of 12 triangles that the pass draws. More of them hide more, and no pixel changes.
+    few, many = (run("occluders", boxes=25, occluders=count) for count in (1, 8))
+    assert [each["occlusion"].counts["triangles of the pass"] for each in (few, many)] == [12, 96]
+    assert 0 < few["occlusion"].counts["boxes hidden"] < many["occlusion"].counts["boxes hidden"]
+    drawn = [each.counts["triangles drawn"] for each in (many["occlusion"], few["occlusion"], few["none"])]
+    assert drawn[0] < drawn[1] < drawn[2]
+    assert {each.errors["wrong-visible"] for found in (few, many) for each in found.values()} == {0}
 
 
 @pytest.mark.parametrize("family", sorted(CHOICES))
