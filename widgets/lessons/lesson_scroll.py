@@ -66,6 +66,7 @@ class LessonScroll(QScrollArea):
         self.setWidget(content)
         bar.place.installEventFilter(self)
         self.verticalScrollBar().valueChanged.connect(self._float)
+        self.verticalScrollBar().rangeChanged.connect(self._keep)
 
     def height_for(self, width: int) -> int:
         """Return the height that the content needs in a column of a width."""
@@ -100,6 +101,12 @@ class LessonScroll(QScrollArea):
         """Scroll to a part of the content, now and when there is another height; ``None``: to the beginning."""
         self._kept = widget
         self._scroll()
+
+    @Slot()
+    def _keep(self) -> None:
+        """Scroll on where the content has become higher: a text is wrapped after it is shown."""
+        if self._kept is not None:
+            self._scroll()
 
     def _scroll(self) -> None:
         if self._kept is None:

@@ -183,6 +183,7 @@ class LessonView(QWidget):
         self.dots = StepDots(self)
         self._icon = QLabel(self)
         self.feedback = text_label("", self, wraps=True, is_selectable=True, name="What came of it")
+        self._result = QWidget(self)
         self._links = FlowLayout(spacing=8)
         self._link_buttons: dict[QPushButton, str] = {}
         """Those that lead elsewhere, and their texts."""
@@ -197,7 +198,7 @@ class LessonView(QWidget):
         return button
 
     def _arrange(self) -> None:
-        head, task, result = row_layout(spacing=8), row_layout(spacing=8), row_layout(spacing=8)
+        head, task, result = row_layout(spacing=8), row_layout(spacing=8), row_layout(self._result, spacing=8)
         head.addWidget(self.title, 1)
         head.addWidget(self.place, 0, Qt.AlignmentFlag.AlignTop)
         head.addWidget(self.close_button, 0, Qt.AlignmentFlag.AlignTop)
@@ -221,12 +222,12 @@ class LessonView(QWidget):
         column.addLayout(task)
         self._answer_place = column_layout(spacing=4)
         column.addLayout(self._answer_place)
-        # What came of the task stands below: no message moves the buttons.
         buttons.addLayout(checks)
         buttons.addLayout(ways)
         column.addWidget(self.bar.place)
-        column.addLayout(result)
+        column.addWidget(self._result)
         column.addLayout(self._links)
+        self._column = column
 
     # What is shown.
 
@@ -363,13 +364,23 @@ class LessonView(QWidget):
             self._keep_height()
         # A task is judged while it is done: what is said must not move a listing that is typed below.
         is_task = self._record is not None and bool(self._record.task) and self.answer is None
-        self.feedback.setVisible(feedback is not None or (is_task and not self._is_presenting))
+        self._result.setVisible(feedback is not None or (is_task and not self._is_presenting))
+        seen = self.parentWidget()
+        scrolls = feedback is not None and seen is not None and self.height() > seen.height()
+        self._place_result(scrolls=scrolls)
         self._follow_theme()
         self.feedback.setText("" if feedback is None else "\n".join(feedback.sentences))
         if feedback is not None:
             set_role(self.feedback, {True: "good", False: "bad", None: ""}[feedback.is_right])
             announce(self, self.feedback.text())
             self.feedback_shown.emit()
+
+    def _place_result(self, *, scrolls: bool) -> None:
+        """Let what is said move no buttons: it stands below them, or above them where they float at the lower edge."""
+        is_above = self._column.indexOf(self._result) < self._column.indexOf(self.bar.place)
+        if scrolls != is_above:
+            self._column.removeWidget(self._result)
+            self._column.insertWidget(self._column.indexOf(self.bar.place) + (not scrolls), self._result)
 
     def show_hint(self, text: str) -> None:
         """Show what a task lacks so far, where that has changed; empty: nothing."""

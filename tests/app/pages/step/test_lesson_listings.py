@@ -95,6 +95,26 @@ def test_what_a_check_finds_stays_marked(
     assert form.editor.has_problem
 
 
+@pytest.mark.own_window
+def test_next_keeps_its_place_below_a_listing_that_scrolls(window: MainWindow, qtbot: QtBot) -> None:
+    window.resize(1280, 640)
+    window.page.lessons.open("repair-a-listing", 2)
+    walk = settled(window, qtbot)
+    assert walk.answers.asked is not None
+    right = walk.answers.asked.question.draft.answer.reference
+    window.page.settle()
+    assert walk.task.scroll.verticalScrollBar().maximum() > 0
+    place = walk.view.next_button.mapTo(window, QPoint())
+    for given in (right.replace("if D > 0:", "if D >= 0:"), right):
+        assert answered(walk, qtbot, given)
+        settled(window, qtbot)
+        window.page.settle()
+        # At the end there is the margin of the pane below it.
+        assert abs(walk.view.next_button.mapTo(window, QPoint()).y() - place.y()) <= 8
+        feedback, bar = walk.view.feedback, walk.view.bar
+        assert feedback.mapTo(window, feedback.rect().bottomLeft()).y() < bar.mapTo(window, QPoint()).y()
+
+
 def test_a_lesson_asks_for_a_listing(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
     walk = opened(window, qtbot, tmp_path, 2, lesson_text("repair-a-listing"))
     assert walk.answers.asked is not None
