@@ -8,7 +8,7 @@ from types import FrameType
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QPushButton
 from pytestqt.qtbot import QtBot
@@ -213,10 +213,11 @@ def test_the_exercise_that_closes_a_lesson_leads_back_to_it(
     back = window.pages.current.findChild(QPushButton, "back to the lesson")
     assert back is not None
     assert isinstance(window.pages.current, ExercisesPage)
-    view, place = window.pages.current.question_view, back.pos()
+    QApplication.processEvents()
+    view, place = window.pages.current.question_view, back.mapTo(window, QPoint())
     view.step_button.setVisible(view.step_button.isHidden())
     QApplication.processEvents()
-    assert back.pos() == place, "another button would come under the pointer"
+    assert back.mapTo(window, QPoint()) == place, "another button would come under the pointer"
     back.click()
     assert window.pages.current is window.page
     assert settled(window, qtbot).number == 4
