@@ -203,8 +203,9 @@ def paint_step_mark(
         painter.drawLines(lines)
         for x, y in mark.points[np.isfinite(mark.points).all(axis=1)].tolist():
             painter.drawEllipse(placement.to_widget(x, y), _RING, _RING)
-    painter.restore()
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
     paint_step(painter, placement, mark.pixels, theme)
+    painter.restore()
 
 
 def _paint_trail(

@@ -200,7 +200,7 @@ class LessonView(QWidget):
     def _arrange(self) -> None:
         head, task, result = row_layout(spacing=8), row_layout(spacing=8), row_layout(self._result, spacing=8)
         head.addWidget(self.title, 1)
-        head.addWidget(self.place, 0, Qt.AlignmentFlag.AlignTop)
+        head.addWidget(self.place)
         head.addWidget(self.close_button, 0, Qt.AlignmentFlag.AlignTop)
         task.addWidget(self.task, 1)
         # Its room is kept, or a task that is done might take one line more.

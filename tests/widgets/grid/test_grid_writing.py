@@ -147,7 +147,8 @@ def test_no_mark_of_a_step_strikes_out_what_is_written(qtbot) -> None:
     widget.show_geometry(geometry)
     theme, placement = current_theme(), widget.placement()
     trail = np.array([[0, 6], [5, 6], [0, 4]])
-    mark = StepMark(lines=np.array([[[0.0, 0.6], [8.0, 0.6]]]), trail=trail)
+    every_other = np.argwhere(np.indices((8, 8)).sum(axis=0) % 2)
+    mark = StepMark(every_other, lines=np.array([[[0.0, 0.6], [8.0, 0.6]]]), trail=trail)
     buffer = widget.buffer()
     assert buffer is not None
     written = [box.toRect() for box, _, _ in widget.names()]
