@@ -1,5 +1,6 @@
 """The controls that panes are made of: labels, buttons, boxes of choices, and layouts that give them room."""
 
+import re
 from bisect import bisect_left
 from typing import TypeVar
 
@@ -115,6 +116,15 @@ def text_label(
     if is_selectable:
         label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
     return label
+
+
+_OPERATOR = re.compile(r"(?<= [−+·=≈≠<>≥≤-]) (?=\S)")
+_SYMBOL = re.compile(r"\b\w{1,3} (?=[=≈≠<>≥≤]\u00a0)")
+
+
+def unbroken(text: str) -> str:
+    """Return a text in which a line ends before an operator, not behind it, and not between a symbol and its sign."""
+    return _SYMBOL.sub(lambda found: found[0][:-1] + "\u00a0", _OPERATOR.sub("\u00a0", text))
 
 
 class ElidedLabel(QLabel):

@@ -17,6 +17,7 @@ from widgets.basics.controls import (
     row_layout,
     set_role,
     text_label,
+    unbroken,
 )
 from widgets.basics.drawing import LabelPlaces, Mark, mark_pixmap
 from widgets.basics.theme import current_theme, faded, text_font, theme_notifier
@@ -314,7 +315,7 @@ class QuestionView(QWidget):
             (self.given, record.given),
             (self.credit, record.credit),
         ):
-            label.setText(text)
+            label.setText(unbroken(text))
             label.setVisible(bool(text))
         self.sketch.show_sketch(record.sketch)
         self._has_art = _ART.search(record.given) is not None

@@ -17,6 +17,7 @@ from widgets.basics.controls import (
     row_layout,
     set_role,
     text_label,
+    unbroken,
     wrap_text,
 )
 from widgets.basics.drawing import Mark, mark_pixmap
@@ -236,7 +237,7 @@ class LessonView(QWidget):
         self._record = record
         self.title.setText(record.title)
         for label, text in ((self.lead, record.lead), (self.text, record.text), (self.task, record.task)):
-            label.setText(text)
+            label.setText(unbroken(text))
             label.setVisible(bool(text))
         self._show_links(record.links)
         self._show_form(form)
@@ -369,10 +370,11 @@ class LessonView(QWidget):
         scrolls = feedback is not None and seen is not None and self.height() > seen.height()
         self._place_result(scrolls=scrolls)
         self._follow_theme()
-        self.feedback.setText("" if feedback is None else "\n".join(feedback.sentences))
+        said = "" if feedback is None else "\n".join(feedback.sentences)
+        self.feedback.setText(unbroken(said))
         if feedback is not None:
             set_role(self.feedback, {True: "good", False: "bad", None: ""}[feedback.is_right])
-            announce(self, self.feedback.text())
+            announce(self, said)
             self.feedback_shown.emit()
 
     def _place_result(self, *, scrolls: bool) -> None:

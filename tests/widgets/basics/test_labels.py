@@ -2,7 +2,7 @@
 
 from PySide6.QtWidgets import QRadioButton
 
-from widgets.basics.controls import CutLabel, wrap_text
+from widgets.basics.controls import CutLabel, unbroken, wrap_text
 
 
 def test_a_text_ends_with_a_whole_word_and_an_ellipsis_where_it_has_no_room(qtbot) -> None:
@@ -31,3 +31,14 @@ def test_a_button_writes_a_long_text_in_several_lines_and_is_heard_as_one(qtbot)
     assert button.accessibleName() == text
     wrap_text(button, text, 2000)
     assert button.text() == text
+
+
+def test_a_line_ends_before_an_operator_and_not_behind_a_short_symbol() -> None:
+    assert unbroken("E0 = 12 − 3x, w = 5; (1 − 0)").split(" ") == [
+        "E0\u00a0=\u00a012",
+        "−\u00a03x,",
+        "w\u00a0=\u00a05;",
+        "(1",
+        "−\u00a00)",
+    ]
+    assert unbroken("no formula - at all: a, b") == "no formula -\u00a0at all: a, b"
