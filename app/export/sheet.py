@@ -39,9 +39,7 @@ class Sheet(QWidget):
     def write(self, lines: Iterable[str], role: str = "muted") -> None:
         """Add paragraphs of text."""
         for line in lines:
-            label = QLabel(line, self)
-            label.setTextFormat(Qt.TextFormat.PlainText)
-            label.setWordWrap(True)
+            label = QLabel(line, self, textFormat=Qt.TextFormat.PlainText, wordWrap=True)
             label.setProperty("role", role)
             self._rows.addWidget(label)
 

@@ -207,9 +207,7 @@ class UnfinishedFile(QObject):
         self._job = Job(self, expected=(OSError,))
         self._job.succeeded.connect(self._succeed)
         self._job.failed.connect(self._fail)
-        self._timer = QTimer(self)
-        self._timer.setSingleShot(True)
-        self._timer.setInterval(PAUSE)
+        self._timer = QTimer(self, singleShot=True, interval=PAUSE)
         self._timer.timeout.connect(self._save)
 
     def read(self) -> str:

@@ -185,11 +185,9 @@ class Autosave(QObject):
         self._job.failed.connect(self._fail)
         self._waits = QElapsedTimer()
         """Since the first edit that is not saved."""
-        self._timer = QTimer(self)
-        self._timer.setSingleShot(True)
+        self._timer = QTimer(self, singleShot=True)
         self._timer.timeout.connect(self._save)
-        self._retry = QTimer(self)
-        self._retry.setSingleShot(True)
+        self._retry = QTimer(self, singleShot=True)
         self._retry.timeout.connect(self.ask)
 
     def begin(self, file: WindowFile | None, stand_in: Document | None = None) -> None:

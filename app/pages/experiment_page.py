@@ -70,9 +70,8 @@ class ExperimentPage(Page):
         self._below = below
         self.panes = splitter(Qt.Orientation.Vertical, ((top, 3, 440), (below, 2, 280)), self)
         # Where all of it has no room, as in large type on a low screen, it scrolls: nothing lies over something else.
-        scroll = QScrollArea(self)
+        scroll = QScrollArea(self, widgetResizable=True)
         scroll.setWidget(self.panes)
-        scroll.setWidgetResizable(True)
         scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.columns = SideColumns(left, scroll, self)
         self._desk: tuple[dict[str, str], bool] | None = None
@@ -247,9 +246,7 @@ class PacedDrawing(QObject):
         super().__init__(page)
         self._page = page
         self._is_owed = False
-        self._pause = QTimer(self)
-        self._pause.setSingleShot(True)
-        self._pause.setInterval(PAUSE)
+        self._pause = QTimer(self, singleShot=True, interval=PAUSE)
         self._pause.timeout.connect(self._draw_what_is_owed)
         page.installEventFilter(self)
 

@@ -303,9 +303,7 @@ class Pages(QWidget):
         super().__init__(parent)
         self._kinds, self._session = kinds, session
         self._made: dict[str, Page] = {}
-        self.bar = QTabBar(self)
-        self.bar.setDrawBase(False)
-        self.bar.setExpanding(False)
+        self.bar = QTabBar(self, drawBase=False, expanding=False)
         self.bar.setAccessibleName("Pages")
         self.bar.setFocusPolicy(
             Qt.FocusPolicy.NoFocus

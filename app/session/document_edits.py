@@ -21,8 +21,7 @@ class LatestCall(QObject):
         super().__init__(parent)
         self._do = do
         self._waiting: tuple[object, ...] | None = None
-        self._turn = QTimer(self)
-        self._turn.setSingleShot(True)
+        self._turn = QTimer(self, singleShot=True)
         self._turn.timeout.connect(self._do_waiting)
 
     def call(self, *arguments: object) -> None:

@@ -249,9 +249,7 @@ class FrameReport(QObject):
     def __init__(self, view: SceneView, parent: QObject) -> None:
         super().__init__(parent)
         self._view = view
-        self._timer = QTimer(self)
-        self._timer.setSingleShot(True)
-        self._timer.setInterval(FIGURES_MS)
+        self._timer = QTimer(self, singleShot=True, interval=FIGURES_MS)
         self._timer.timeout.connect(self._tell)
         self.begin_anew()
         # Queued: what the figures change is not to be laid out while the view is painted.

@@ -62,9 +62,7 @@ class WorkProgress(QObject):
         self._opening, self._tracing, self._messages = opening, tracing, messages
         self._title = ""
         """What is waited for, as ``Opening teapot.obj``."""
-        self._slow = QTimer(self)
-        self._slow.setSingleShot(True)
-        self._slow.setInterval(PROGRESS_AFTER)
+        self._slow = QTimer(self, singleShot=True, interval=PROGRESS_AFTER)
         self._slow.timeout.connect(self._show_slow)
         opening.progressed.connect(self._show_progress)
         opening.ended.connect(self._end)

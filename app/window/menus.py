@@ -174,8 +174,7 @@ class Menus(QObject):
         self.show_bookmarks(())
 
     def _make_action(self, entry: KeyAction, window: QMainWindow) -> QAction:
-        made = QAction(entry.title, window)
-        made.setCheckable(entry.is_checkable)
+        made = QAction(entry.title, window, checkable=entry.is_checkable)
         made.setData(entry.name)
         _give_keys(made, entry)
         made.triggered.connect(self._choose_action)

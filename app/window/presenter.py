@@ -61,14 +61,12 @@ class Presenter(QObject):
         super().__init__(window)
         self._desk: _Desk | None = None
         self._is_whole_width = False
-        self._blank = QWidget(window)
+        self._blank = QWidget(window, accessibleName="Black screen")
         self._blank.setStyleSheet("background: #000000")
         self._blank.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
-        self._blank.setAccessibleName("Black screen")
         self._blank.hide()
-        self.hint = QLabel(window)
+        self.hint = QLabel(window, wordWrap=True)
         self.hint.setProperty("role", "floating")
-        self.hint.setWordWrap(True)
         self.hint.hide()
         window.statusBar().messageChanged.connect(self._show_hint)
         window.page.main_area.view_changed.connect(self._follow_view)

@@ -64,8 +64,7 @@ class FormulaView(QWidget):
         self._heights: dict[int, int] = {}
         """By width; one step has the layouts ask for the same one several times."""
         self._kept_setter: tuple[str, float, FormulaSetter] | None = None
-        self._catch_up_timer = QTimer(self)
-        self._catch_up_timer.setSingleShot(True)
+        self._catch_up_timer = QTimer(self, singleShot=True)
         self._catch_up_timer.timeout.connect(self._catch_up)
         self._pointed: FormulaNumber | None = None
         self._where = ""
@@ -283,9 +282,7 @@ class FormulaView(QWidget):
         return super().event(event)
 
     def _add_action(self, text: str, shortcut: QKeySequence) -> QAction:
-        action = QAction(text, self)
-        action.setShortcut(shortcut)
-        action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
+        action = QAction(text, self, shortcut=shortcut, shortcutContext=Qt.ShortcutContext.WidgetShortcut)
         self.addAction(action)
         return action
 

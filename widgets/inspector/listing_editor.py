@@ -44,9 +44,7 @@ class ListingEditor(CodeView):
         self._is_new = True
         """Whether a pause came before what is typed next."""
         self._highlighter = TokenHighlighter(self.document())
-        self._pause = QTimer(self)
-        self._pause.setSingleShot(True)
-        self._pause.setInterval(PAUSE_MS)
+        self._pause = QTimer(self, singleShot=True, interval=PAUSE_MS)
         self._pause.timeout.connect(self._type)
         self.textChanged.connect(self._await_pause)
         self.textChanged.connect(self._follow_text)

@@ -68,9 +68,7 @@ class ListingPane(QWidget):
         self._message_room: tuple[bool, int] = True, 0
         """Whether the sentence is hidden, and its height, when the column was told."""
         self.listing, self.editor = ListingView(self), ListingEditor(self)
-        self.sides = QTabBar(self)
-        self.sides.setDrawBase(False)
-        self.sides.setExpanding(False)
+        self.sides = QTabBar(self, drawBase=False, expanding=False)
         self.sides.setAccessibleName("Version of the listing")
         self.sides.addTab("A")
         self.sides.addTab(f"B: {UNNAMED}")
@@ -79,9 +77,7 @@ class ListingPane(QWidget):
         self.sides.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.note = ElidedLabel(self)
         self.note.setProperty("role", "muted")
-        self.name_field = QLineEdit(self)
-        self.name_field.setMaxLength(NAME_LENGTH)
-        self.name_field.setPlaceholderText("Name of your version")
+        self.name_field = QLineEdit(self, maxLength=NAME_LENGTH, placeholderText="Name of your version")
         self.name_field.setAccessibleName("Name of your version")
         self.name_field.hide()
         self.edit_button, self.reset_button = QToolButton(self), QToolButton(self)
@@ -258,8 +254,7 @@ class ListingPane(QWidget):
         menu.addSeparator()
         head = self._head
         text = f"Edit line {line}" if line else "Edit"
-        edit = QAction(head.refusal or text, menu)
-        edit.setEnabled(not head.refusal)
+        edit = QAction(head.refusal or text, menu, enabled=not head.refusal)
         edit.triggered.connect(lambda: self.edit_requested.emit(line))
         menu.addAction(edit)
         if head.is_edited:

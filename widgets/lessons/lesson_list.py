@@ -171,13 +171,11 @@ class LessonPartView(QWidget):
     def __init__(self, part: LessonPart, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.part = part
-        self.button = QToolButton(self)
+        self.button = QToolButton(self, toolButtonStyle=Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self.button.setProperty("flat", True)
-        self.button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self.button.setText(f"{part.title}: {part.sentence}")
         self.button.clicked.connect(self._toggle)
-        self._group = QWidget(self)
-        self._group.setAccessibleName(part.title)
+        self._group = QWidget(self, accessibleName=part.title)
         flow = FlowLayout(self._group, SPACING)
         self.cards = [LessonCard(entry, self._group) for entry in part.lessons]
         ArrowGroup(self.cards, self._group)

@@ -178,8 +178,7 @@ class SceneCards(QWidget):
     def show_scenes(self, groups: Mapping[str, Sequence[SceneEntry]]) -> None:
         """Make a card for each scene: the title of a group, which is one stop of Tab, to its scenes."""
         for title, entries in groups.items():
-            group = QWidget(self)
-            group.setAccessibleName(title)
+            group = QWidget(self, accessibleName=title)
             flow = FlowLayout(group, SPACING)
             if self.cards:
                 self._column.addSpacing(SPACING)

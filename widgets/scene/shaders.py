@@ -213,8 +213,7 @@ class ShaderPane(QWidget):
         self._lanes.activated.connect(self._choose_lanes)
         self._preset.activated.connect(self._choose_preset)
         self._dialect.activated.connect(self._choose_dialect)
-        self._tabs = QTabWidget(self)
-        self._tabs.setDocumentMode(True)
+        self._tabs = QTabWidget(self, documentMode=True)
         self._editors: dict[str, SourceEditor] = {}
         for stage, title in STAGES.items():
             editor = self._editors[stage] = SourceEditor(f"{title} shader", self)
@@ -225,8 +224,7 @@ class ShaderPane(QWidget):
         self._message = QLabel(HINT, self)
         self._message.setWordWrap(True)
         self._message.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self._uniforms = QScrollArea(self)
-        self._uniforms.setWidgetResizable(True)
+        self._uniforms = QScrollArea(self, widgetResizable=True)
         self._uniforms.setFrameShape(QFrame.Shape.NoFrame)
         content = QWidget(self._uniforms)
         column = column_layout(content, 0)

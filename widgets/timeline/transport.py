@@ -61,8 +61,7 @@ class Timeline(QWidget):
         self._count = 0
         self._position = 0
         self._level = Level.PIXEL
-        self.clock = QTimer(self)
-        self.clock.setInterval(round(1000 / SPEEDS[2]))
+        self.clock = QTimer(self, interval=round(1000 / SPEEDS[2]))
         self.clock.timeout.connect(self._tick)
         self.chapters = ChapterRow(self)
         self.bar = TimelineBar(self)

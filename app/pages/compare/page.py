@@ -122,8 +122,7 @@ class ComparePage(ResultPage[Study, FamilyChoice]):
     def _tabs(self) -> QWidget:
         panes = ((self.scatter, 3, 540), (self.legend, 1, 230), (self.growth, 2, 300))
         self.charts = splitter(Qt.Orientation.Horizontal, panes, self)
-        self.tabs = QTabWidget(self)
-        self.tabs.setDocumentMode(True)
+        self.tabs = QTabWidget(self, documentMode=True)
         self.tabs.tabBar().setDrawBase(False)
         self.tabs.addTab(self.charts, "Charts")
         self.tabs.addTab(self.table, "Numbers")

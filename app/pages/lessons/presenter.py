@@ -74,9 +74,7 @@ class LessonPresenter(QObject):
         self._job.failed.connect(self._refuse)
         self._wanted: tuple[Lesson | str, int | None] | None = None
         """What is opened once the window is painted."""
-        self._painted = QTimer(self)
-        self._painted.setSingleShot(True)
-        self._painted.setInterval(FIRST_MS)
+        self._painted = QTimer(self, singleShot=True, interval=FIRST_MS)
         self._painted.timeout.connect(self._open_wanted)
 
     @property

@@ -77,8 +77,7 @@ class ListingPresenter(QObject):
         self._lent: tuple[Edit, ...] = ()
         """Edits that an exercise has brought along."""
         self.outcome = ListingOutcome(session, comparing, column.code, page)
-        self._later = QTimer(self)
-        self._later.setSingleShot(True)
+        self._later = QTimer(self, singleShot=True)
         self._later.timeout.connect(self._show_head_later)
         inspector.listing_shown = self._show_head
         inspector.line_beside_clicked.connect(self._run_to_line)

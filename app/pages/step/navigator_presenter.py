@@ -57,9 +57,7 @@ class NavigatorPresenter(QObject):
         """The outline and the finished picture."""
         self._worker = SceneWorker(self)
         self._worker.done.connect(self._take_picture)
-        self._pause = QTimer(self)
-        self._pause.setSingleShot(True)
-        self._pause.setInterval(DRAWN_AFTER_MS)
+        self._pause = QTimer(self, singleShot=True, interval=DRAWN_AFTER_MS)
         self._pause.timeout.connect(self._draw)
         self._moves = LatestCall(self._move, self)
         navigator.region_moved.connect(self._moves.call)
