@@ -53,16 +53,14 @@ def on_page(page: str, *actions: Row) -> Iterator[Row]:
     return (replace(action, page=page) for action in actions)
 
 
-STEPPING, POINTING, STAGE_GROUP, RUNNING, VIEWING, EDITING, FILES, PAGES = (
-    "Stepping",
-    "Pixels",
-    "Stages",
-    "Run to",
-    "View",
-    "Edit",
-    "Files",
-    "Pages",
-)
+STEPPING = "Stepping"
+POINTING = "Pixels"
+STAGE_GROUP = "Stages"
+RUNNING = "Run to"
+VIEWING = "View"
+EDITING = "Edit"
+FILES = "Files"
+PAGES = "Pages"
 HELP = "Help"
 LESSONS = "Lessons"
 PRESENTING = "Presenting"

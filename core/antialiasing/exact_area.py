@@ -327,10 +327,8 @@ class PiecePainter:
                 inside = join_pieces(list(split_pieces(inside, *parts)))
         if not self._geometry.drawing.uses_depth_test:
             return inside
-        primitive, shown = (
-            self.squares.primitive.take(fragment.take(inside.number)),
-            there.primitive.take(inside.number),
-        )
+        primitive = self.squares.primitive.take(fragment.take(inside.number))
+        shown = there.primitive.take(inside.number)
         new, old = (self._plane_at(depth, of, there, inside) for of in (primitive, np.maximum(shown, 0)))
         a, b, value = (first - second for first, second in zip(new, old, strict=True))
         reach = (np.abs(a) + np.abs(b)) * 0.5

@@ -94,10 +94,8 @@ def bend_across_columns(step: StepValues) -> Said:
 @explains("resolve.smoothed.direction", decides=True)
 def direction(step: StepValues) -> Said:
     """Across the edge luma bends more."""
-    row, column = (
-        step.named("along_row", r"B_{\mathrm{row}}"),
-        step.named("along_column", r"B_{\mathrm{col}}"),
-    )
+    row = step.named("along_row", r"B_{\mathrm{row}}")
+    column = step.named("along_column", r"B_{\mathrm{col}}")
     way = "rows" if step.flag("is_horizontal") else "columns"
     along = "row" if step.flag("is_horizontal") else "column"
     text = f"luma bends more across {way}, so the edge runs along the {along}."
@@ -159,11 +157,9 @@ def walk(step: StepValues) -> Said:
 @explains("resolve.smoothed.edge")
 def edge(step: StepValues) -> Said:
     """How far the nearer end moves the colour."""
-    k, j, offset = (
-        step.named("steps_back", "k"),
-        step.named("steps_forth", "j"),
-        step.named("edge_offset", "e"),
-    )
+    k = step.named("steps_back", "k")
+    j = step.named("steps_forth", "j")
+    offset = step.named("edge_offset", "e")
     near = min(k.value, j.value)
     if offset.value == 0 and k.value == j.value:
         text = f"both ends are {counted(int(near), 'pixel')} away: in the middle of a stair nothing moves."

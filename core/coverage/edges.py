@@ -96,11 +96,9 @@ class ExactFormat(NumberFormat):
             return x, y, w
         # Twice the position in 1/256 pixel, times w, is a whole number of the unit divided by 2^7.
         moved_x, moved_y = (int(SUBPIXELS * way) for way in corners.shift)
-        x, y, unit = (
-            (x << HALF_STEP_BITS) + moved_x * w,
-            (y << HALF_STEP_BITS) + moved_y * w,
-            w << HALF_STEP_BITS,
-        )
+        x = (x << HALF_STEP_BITS) + moved_x * w
+        y = (y << HALF_STEP_BITS) + moved_y * w
+        unit = w << HALF_STEP_BITS
         return x, y, unit
 
     def of_pixels(self, position: Floats) -> FormatValue:

@@ -209,11 +209,9 @@ def snapped(step: StepValues) -> Said:
 @explains("edges.homogeneous.keep")
 def homogeneous(step: StepValues) -> Said:
     """A corner that is not snapped, and why."""
-    place, w, form = (
-        vector_text(step.vector("homogeneous")),
-        step.vector("homogeneous")[2],
-        step.text("number_format"),
-    )
+    place = vector_text(step.vector("homogeneous"))
+    w = step.vector("homogeneous")[2]
+    form = step.text("number_format")
     if step.text("rounding") == "wrapped":
         return (
             f"{_corner(step)} cannot be represented in {form}: behind the eye or too far away, "

@@ -197,11 +197,9 @@ def columns_text(start: int, stop: int) -> str:
 @explains("raster.span.span")
 def span(step: StepValues) -> Said:
     """The columns of a span."""
-    start, stop, name = (
-        step.whole("start"),
-        step.whole("stop"),
-        f"Row {step.whole('row')} of triangle {step.triangle}",
-    )
+    start = step.whole("start")
+    stop = step.whole("stop")
+    name = f"Row {step.whole('row')} of triangle {step.triangle}"
     text = f"{name} has no pixel centre inside all three edges."
     if stop > start:
         text = f"{name} is covered in {columns_text(start, stop)}: {counted(stop - start, 'pixel')}."
@@ -295,10 +293,8 @@ def side_slope(step: StepValues) -> Said:
     """How far a side of the printed scanline fill goes to the right from row to row."""
     k = int(step.operation[-1])
     slope = step.named(f"slope_{k}", f"m_{k + 1}")
-    width, height = (
-        step.named(f"width_{k}", rf"\Delta x_{k + 1}"),
-        step.named(f"height_{k}", rf"\Delta y_{k + 1}"),
-    )
+    width = step.named(f"width_{k}", rf"\Delta x_{k + 1}")
+    height = step.named(f"height_{k}", rf"\Delta y_{k + 1}")
     part = "above" if _is_upper(step) else "below"
     text = f"In the part {part} a level side, the {SIDES[k]} side moves by {slope} with each row upwards."
     if height.value == 0:

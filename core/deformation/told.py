@@ -44,10 +44,8 @@ def blended(step: StepValues) -> Said:
         named(below(axis, name), step.number(f"{column}_{axis}"))
         for name, column in (("before", "before"), ("after", "after"))
     )
-    rest, shape = (
-        named(below(axis, "rest"), step.vector("rest")[k]),
-        named(below(axis, "shape"), step.vector("shape")[k]),
-    )
+    rest = named(below(axis, "rest"), step.vector("rest")[k])
+    shape = named(below(axis, "shape"), step.vector("shape")[k])
     text = f"{_vertex(step)}: with {weight} of the way to shape {target} its {axis} is {spoken(after.value)}."
     return text, formula_of(after.equals(before + weight * (shape - rest)))
 
@@ -90,11 +88,9 @@ def summed(step: StepValues) -> Said:
 @explains("transform.skin.normal")
 def turned(step: StepValues) -> Said:
     """The normal by the cofactors of the blended matrix."""
-    normal, rest, (a, b, c) = (
-        step.vector("normal"),
-        step.vector("rest_normal"),
-        np.array(step.rows("blended")),
-    )
+    normal = step.vector("normal")
+    rest = step.vector("rest_normal")
+    (a, b, c) = np.array(step.rows("blended"))
     k = max(range(3), key=lambda i: abs(normal[i]))
     cofactors = (np.cross(b, c), np.cross(c, a), np.cross(a, b))
     sums = [float(row @ np.array(rest)) for row in cofactors]

@@ -196,12 +196,10 @@ def planes_of(places: CornerPlaces, center: float, color: Floats, edges: Floats)
     column, row = np.floor(x[0]), np.floor(y[0])
     right, above = column + center - x[0], row + center - y[0]
     share = 1 / places.doubled_area
-    a1, b1, a2, b2 = (
-        (y[2] - y[0]) * share,
-        (x[0] - x[2]) * share,
-        (y[0] - y[1]) * share,
-        (x[1] - x[0]) * share,
-    )
+    a1 = (y[2] - y[0]) * share
+    b1 = (x[0] - x[2]) * share
+    a2 = (y[0] - y[1]) * share
+    b2 = (x[1] - x[0]) * share
     p1, p2 = right * a1 + above * b1, right * a2 + above * b2
 
     def field(channel: int) -> Quadratic:

@@ -42,11 +42,9 @@ def transferred(step: StepValues) -> Said:
 def waits(step: StepValues) -> Said:
     """A picture that is ready waits for the end of the refresh."""
     picture, ready = step.whole("picture"), step.named("ready", r"t_{\mathrm{ready}}")
-    blank, period, later = (
-        step.named("blank", r"t_{\mathrm{swap}}"),
-        step.named("refresh_time", "P"),
-        step.whole("next_begun"),
-    )
+    blank = step.named("blank", r"t_{\mathrm{swap}}")
+    period = step.named("refresh_time", "P")
+    later = step.whole("next_begun")
     text = f"Picture {picture} is ready at {ready} ms and waits for the end of a refresh at {blank} ms"
     end = -(-ready.value // period.value) * period.value
     first, is_first = call("ceil", ready / period) * period, blank.value == end

@@ -33,10 +33,8 @@ def parts(step: StepValues) -> Said:
 @explains("interpolate.line-perspective.total")
 def total_along_line(step: StepValues) -> Said:
     """1/w along the line."""
-    (start, end), whole = (
-        map(named, ("p_0", "p_1"), step.vector("parts")),
-        step.named("total", r"\frac{1}{w}"),
-    )
+    (start, end) = map(named, ("p_0", "p_1"), step.vector("parts"))
+    whole = step.named("total", r"\frac{1}{w}")
     text = f"{step.fragment_name}: both parts add up to 1/w = {whole}."
     return text, formula_of(whole.equals(start + end))
 
@@ -323,11 +321,9 @@ def anchors(step: StepValues) -> Said:
 @explains("interpolate.affine-n.fraction")
 def position(step: StepValues) -> Said:
     """Where the pixel is between its anchors."""
-    t, (left, right), x = (
-        step.named("fraction", "t"),
-        map(named, "lr", step.vector("anchor_x")),
-        step.named("x", "x"),
-    )
+    t = step.named("fraction", "t")
+    (left, right) = map(named, "lr", step.vector("anchor_x"))
+    x = step.named("x", "x")
     text = f"{step.fragment_name}: its centre is t = {t} of the way from the left to the right anchor."
     if t.value == 0:
         text = f"{step.fragment_name}: its centre is at the left anchor, t = 0."

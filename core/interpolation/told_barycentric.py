@@ -224,10 +224,8 @@ def shares_of_distance(step: StepValues) -> Said:
         f"{step.fragment_name}: corners 0, 1 and 2 have weights {listed(weights)}: how far the pixel is from the "
         f"opposite edge, as a part of how far the corner is{below_zero(weights)}."
     )
-    here, at_corner = (
-        _line_values(step, "at_pixel", [step.centre] * 3),
-        _line_values(step, "at_corner", _corners(step)),
-    )
+    here = _line_values(step, "at_pixel", [step.centre] * 3)
+    at_corner = _line_values(step, "at_corner", _corners(step))
     return text, formula_of(*quotients(step, here, at_corner))
 
 

@@ -111,30 +111,24 @@ def crossing(step: StepValues) -> Said:
 @explains("raster.clip-enter|clip-leave.narrow")
 def narrow(step: StepValues) -> Said:
     """The latest entry or the earliest exit so far."""
-    name, kind, extreme, order, lost, symbol, rule = (
-        "t_leave",
-        "exit",
-        "earliest",
-        "before",
-        "after",
-        "t_L",
-        "min",
-    )
+    name = "t_leave"
+    kind = "exit"
+    extreme = "earliest"
+    order = "before"
+    lost = "after"
+    symbol = "t_L"
+    rule = "min"
     if step.kind == "clip-enter":
-        name, kind, extreme, order, lost, symbol, rule = (
-            "t_enter",
-            "entry",
-            "latest",
-            "after",
-            "before",
-            "t_E",
-            "max",
-        )
-    before, t, now = (
-        step.named("bound_before", symbol),
-        step.named("crossing_t", "t"),
-        step.named(name, symbol),
-    )
+        name = "t_enter"
+        kind = "entry"
+        extreme = "latest"
+        order = "after"
+        lost = "before"
+        symbol = "t_E"
+        rule = "max"
+    before = step.named("bound_before", symbol)
+    t = step.named("crossing_t", "t")
+    now = step.named(name, symbol)
     text = f"This is the {extreme} {kind} so far: the part {lost} t = {now} is outside."
     if now == before:
         text = f"This {kind} changes nothing: t = {t} is not {order} the {kind} at {before}."

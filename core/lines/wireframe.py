@@ -142,11 +142,9 @@ def set_up_outlines(
         return np.stack([values[primitive, first], values[primitive, second]], axis=1)
 
     # Cut at the neighbourhood's borders: the part from t = cut[0] to t = cut[1] of the edge in clip space.
-    homogeneous, z, w = (
-        ends(corners.homogeneous),
-        ends(primitives.clip[..., 2]),
-        ends(primitives.clip[..., 3]),
-    )
+    homogeneous = ends(corners.homogeneous)
+    z = ends(primitives.clip[..., 2])
+    w = ends(primitives.clip[..., 3])
     cut = cut_to_window(homogeneous, size)
     with np.errstate(all="ignore"):
         at_cut = (1 - cut[..., None]) * homogeneous[:, :1] + cut[..., None] * homogeneous[:, 1:]

@@ -233,11 +233,9 @@ def polygon_link(candidates: PixelCandidates, rings: Rings, k: int) -> Link:
     crossed, winding, is_inside = 0, 0, False
     if len(to_left):
         last = to_left[-1]
-        crossed, winding, is_inside = (
-            int(found.crossed[last]),
-            int(found.winding[last]),
-            bool(found.is_inside[last]),
-        )
+        crossed = int(found.crossed[last])
+        winding = int(found.winding[last])
+        is_inside = bool(found.is_inside[last])
     own = np.flatnonzero(rings.polygon_of_corner == k)
     if not len(own):
         return Link("raster", "clipped-polygon", {"distance": float("nan")})

@@ -16,10 +16,8 @@ from core.records.words import TRIANGLES, Nouns, counted, joined
 Values = Mapping[str, Any]
 Sentence = str | Callable[[Values], str]
 
-EDITED_COVERED, EDITED_OUTSIDE = (
-    "covered: the edited inside test returns true",
-    "the edited inside test returns false",
-)
+EDITED_COVERED = "covered: the edited inside test returns true"
+EDITED_OUTSIDE = "the edited inside test returns false"
 
 
 def _pixels(distance: float) -> str:

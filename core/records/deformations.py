@@ -21,10 +21,8 @@ class Blend:
     """(K,) float64; any numbers: below 0 away from a shape, above 1 beyond it."""
 
     def __post_init__(self) -> None:
-        targets, weights = (
-            checked("targets", self.targets, ("K", "N", 3)),
-            checked("weights", self.weights, ("K",)),
-        )
+        targets = checked("targets", self.targets, ("K", "N", 3))
+        weights = checked("weights", self.weights, ("K",))
         if len(weights) != len(targets) or not len(weights):
             raise ValueError(
                 f"a blend must have as many weights as targets, got {len(weights)} and {len(targets)}"

@@ -32,10 +32,8 @@ def shadow_columns(source: TraceSource, position: Floats) -> dict[str, np.ndarra
     if not _casts(source):
         return {}
     assert isinstance(source.scene, Scene)
-    tests, lamp = (
-        shadow_tests(source.scene, source.settings, position),
-        lamp_of(source.scene, source.settings),
-    )
+    tests = shadow_tests(source.scene, source.settings, position)
+    lamp = lamp_of(source.scene, source.settings)
     assert tests is not None
     count = len(position)
     found: dict[str, Any] = {

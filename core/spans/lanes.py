@@ -326,11 +326,9 @@ def _cross(
     scratch: ScratchBuffers,
 ) -> None:
     """Write the bounds (levels, count) of the next rows, and move the numerators of the ``further`` lanes on."""
-    numerator, step, reciprocal = (
-        lanes.numerator[:, :count],
-        lanes.step[:, :count],
-        lanes.reciprocal[:, :count],
-    )
+    numerator = lanes.numerator[:, :count]
+    step = lanes.step[:, :count]
+    reciprocal = lanes.reciprocal[:, :count]
     if levels == 1:
         at = scratch("crossing", 4, count)
         np.multiply(numerator, reciprocal, out=at)

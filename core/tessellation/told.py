@@ -114,10 +114,8 @@ def verdict(step: StepValues) -> Said:
     distance, tolerance = step.named("distance", "d"), step.named("tolerance", r"\epsilon")
     if step.whole("halvings") == MOST_HALVINGS and distance.value > tolerance.value:
         return f"{_piece(step)} was halved {MOST_HALVINGS} times, the limit: it stays one piece."
-    found, text = (
-        "one piece",
-        f"no control point is farther than {tolerance} pixels from the chord: it is one piece.",
-    )
+    found = "one piece"
+    text = f"no control point is farther than {tolerance} pixels from the chord: it is one piece."
     if not step.flag("is_flat"):
         found = "halve"
         text = f"a control point is farther than {tolerance} pixels from the chord: it is halved, and each half tested."

@@ -293,10 +293,8 @@ def _means(plane: _Plane, quads: Floats) -> Floats:
 
 def _pieces(start: Floats, end: Floats) -> tuple[Integers, Floats, Floats]:
     """Cut edges from ``start`` to ``end`` (E, 2) at the borders of texels: edge and both parameters of each piece."""
-    edges, parameters = (
-        [np.arange(len(start)), np.arange(len(start))],
-        [np.zeros(len(start)), np.ones(len(start))],
-    )
+    edges = [np.arange(len(start)), np.arange(len(start))]
+    parameters = [np.zeros(len(start)), np.ones(len(start))]
     for axis in range(2):
         low, high = np.minimum(start[:, axis], end[:, axis]), np.maximum(start[:, axis], end[:, axis])
         border = np.floor(low) + 1

@@ -62,10 +62,8 @@ class TreeTask(ChoiceTask):
 
     def counts(self, settings: Settings, made: Picture) -> dict[str, int]:
         """Return the size of the tree, and what all rays of the picture ask."""
-        tree, walk = (
-            tree_of(self.scene, self._sized(settings)),
-            walk_of_all_rays(self.scene, self._sized(settings)),
-        )
+        tree = tree_of(self.scene, self._sized(settings))
+        walk = walk_of_all_rays(self.scene, self._sized(settings))
         return {
             "nodes": len(tree),
             "references": len(tree.items),

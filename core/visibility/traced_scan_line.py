@@ -191,10 +191,8 @@ def _surfaces(lines: ScanLines) -> list[_Rows]:
     # Spans stand by row. Those of the picture before are of no surface that enters.
     drawn = np.flatnonzero(spans.primitive >= 0)
     surface = spans.primitive[drawn]
-    first, last = (
-        drawn[np.unique(surface, return_index=True)[1]],
-        drawn[::-1][np.unique(surface[::-1], return_index=True)[1]],
-    )
+    first = drawn[np.unique(surface, return_index=True)[1]]
+    last = drawn[::-1][np.unique(surface[::-1], return_index=True)[1]]
     row_first, row_last = (np.full(int(surface.max(initial=-1)) + 2, -1) for _ in range(2))
     row_first[spans.primitive[first]], row_last[spans.primitive[last]] = spans.row[first], spans.row[last]
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):

@@ -119,10 +119,8 @@ class ListedLines:
             raise ValueError(f"the slide prints this for x0 < x1 and slopes {slopes}, got {first}")
         limited_steps(self.listing.__name__, np.zeros(len(dx), np.int64), np.ceil(dx).astype(np.int64))
         pixels = recorded(self.listing, ends, last_pixel)
-        (owner, column, row), (decision, before, corrected, advanced) = (
-            pixels[:3].astype(np.int64),
-            pixels[3:],
-        )
+        (owner, column, row) = pixels[:3].astype(np.int64)
+        (decision, before, corrected, advanced) = pixels[3:]
         index = np.arange(len(owner)) - np.searchsorted(owner, owner)
         has_stepped = (index > 0) & (row != np.roll(row, 1))
         is_tie = decision - np.floor(decision) == 0.5 if self.tie is None else decision == self.tie

@@ -92,10 +92,8 @@ def test_what_is_no_part_of_a_shining_sphere_has_no_highlight() -> None:
 
 def test_footprints_follow_from_the_corners_of_any_triangle() -> None:
     square = textured_square(3.0, 30.0, 1)
-    whole, part = (
-        TextureCase(square),
-        TextureCase(ClipScene(square.clip[1:], square.attributes[1:], square.size, square.texture)),
-    )
+    whole = TextureCase(square)
+    part = TextureCase(ClipScene(square.clip[1:], square.attributes[1:], square.size, square.texture))
     assert part.wanted == pytest.approx(whole.wanted, abs=1e-9)
     # Half of the square is left, but for the pixels that its side cuts.
     _, is_whole = part._shown_and_whole(part.start(Settings(antialiasing="ssaa-4"))())

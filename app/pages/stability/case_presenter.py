@@ -199,10 +199,8 @@ class CasePresenter(QObject):
         if self.found is None:
             self._page.tell("Click a cell first: its run opens in the stepper.")
             return
-        opening, title = (
-            self.found.opening,
-            f"{self.found.order.experiment.info.title}: {self.found.order.place.key}",
-        )
+        opening = self.found.opening
+        title = f"{self.found.order.experiment.info.title}: {self.found.order.place.key}"
         if opening is None:
             self._page.tell("This run cannot be stepped: it is not a stage of the pipeline.")
             return

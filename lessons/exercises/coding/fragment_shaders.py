@@ -70,10 +70,8 @@ _LIGHT = (
     ("mat4", "viewMatrix"),
 )
 _RED, _GREY = (1.0, 0.5, 0.25), (0.5, 0.5, 0.5)
-_COSINE, _SURFACE = (
-    "float cosine = max(dot(N, L), 0.0);",
-    "outColor = vec4(vColor * (ambient + diffuse * cosine), 1.0);",
-)
+_COSINE = "float cosine = max(dot(N, L), 0.0);"
+_SURFACE = "outColor = vec4(vColor * (ambient + diffuse * cosine), 1.0);"
 _UNIT, _TO_LIGHT = "vec3 N = normalize(vNormal);", "vec3 L = normalize(mat3(viewMatrix) * -lightDirection);"
 DIFFUSE = ShaderTask(
     "diffuse-shader",

@@ -21,11 +21,9 @@ def gray_scene(light: float) -> ClipScene:
     return triangle_scene([EVERYWHERE], (4, 4), attributes=[[[light, light, light, 1.0]] * 3])
 
 
-TWICE, NOTHING, NEITHER = (
-    "a line of another shade: blended twice",
-    "nothing special",
-    "a black line: drawn by neither",
-)
+TWICE = "a line of another shade: blended twice"
+NOTHING = "nothing special"
+NEITHER = "a black line: drawn by neither"
 ON_TIE = "(tie[0] or tie[1] or tie[2])"
 
 

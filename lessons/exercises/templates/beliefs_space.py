@@ -82,11 +82,9 @@ def draw_late_clip(draws: Draws) -> Draft:
     """Clipping may wait until after the divide: two points have the same quotients, one lies behind the eye."""
     a, b, c = draws.whole(1, 2), draws.whole(1, 2), draws.whole(3, 6)
     side = draws.item((1, -1))
-    behind, visible, negative = (
-        "no: it lies behind the eye",
-        "yes: both lie in [-1, 1]",
-        "no: both are negative",
-    )
+    behind = "no: it lies behind the eye"
+    visible = "yes: both lie in [-1, 1]"
+    negative = "no: both are negative"
     if side > 0:
         right, belief, other = behind, visible, negative
         sentence = (

@@ -257,10 +257,8 @@ def draw_wu(draws: Draws) -> Draft:
 @template("wu-end", 1, "The first column of Wu's line", "raster", 3)
 def draw_end(draws: Draws) -> Draft:
     """Two intensities of the first column of a line that begins inside of it."""
-    x0, y0 = (
-        draws.whole(1, 3) + Fraction(draws.whole(6, 9), 10),
-        draws.whole(1, 3) + Fraction(draws.whole(1, 9), 10),
-    )
+    x0 = draws.whole(1, 3) + Fraction(draws.whole(6, 9), 10)
+    y0 = draws.whole(1, 3) + Fraction(draws.whole(1, 9), 10)
     x1 = draws.whole(9, 12) + HALF
     m = Fraction(draws.whole(1, 3), 4)
     segment = ((float(x0), float(y0)), (float(x1), float(y0 + m * (x1 - x0))))

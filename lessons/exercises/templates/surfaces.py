@@ -122,10 +122,8 @@ def draw_repeated(draws: Draws) -> Draft:
     """A texture that repeats across the window."""
     texels, start = drawn_texels(draws, 4), -draws.whole(1, 2)
     pixel = draws.whole(0, 7), 0
-    scene, settings = (
-        strip([float(texel) for texel in texels], start, 1.0),
-        Settings(texture_filter="nearest"),
-    )
+    scene = strip([float(texel) for texel in texels], start, 1.0)
+    settings = Settings(texture_filter="nearest")
     u = start + Fraction(2 * pixel[0] + 1, 16) * (1 - start)
     wrong = {
         name: [float(SHELF[name].draw(scene, settings).color[0, pixel[0], 0])]

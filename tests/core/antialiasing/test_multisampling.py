@@ -77,10 +77,8 @@ def test_a_pixel_that_one_triangle_fills_looks_as_without(name, choice):
 @pytest.mark.parametrize("blend", ["opaque", "over"])
 def test_lines_cover_all_samples_of_their_pixels(blend):
     choice = {"polygon_mode": "wireframe", "blend": blend}
-    frame, plain = (
-        render(SCENES["lit"], Settings(antialiasing="msaa-4", **choice)),
-        render(SCENES["lit"], Settings(**choice)),
-    )
+    frame = render(SCENES["lit"], Settings(antialiasing="msaa-4", **choice))
+    plain = render(SCENES["lit"], Settings(**choice))
     assert (frame.samples.primitive == plain.primitive).all()
     assert np.array_equal(frame.color, plain.color)
     assert (plain.primitive >= 0).any()

@@ -114,11 +114,9 @@ def test_a_camera_that_moves_finds_its_history_by_depth() -> None:
     }
     assert error["reprojected"] < 0.8 * error["kept"]
     # Where a point of the world was seen before: by the matrices of both cameras.
-    x, y, depth = (
-        np.array([[10.5]]),
-        np.array([[8.5]]),
-        render(last, Settings()).depth[8:9, 10:11].astype(float),
-    )
+    x = np.array([[10.5]])
+    y = np.array([[8.5]])
+    depth = render(last, Settings()).depth[8:9, 10:11].astype(float)
     column, row = place_before(scene, 0, x, y, depth)
     world = unprojected(last, x, y, depth)
     assert np.allclose(projected(scene_before(scene, 1), world), [column.item(), row.item()])

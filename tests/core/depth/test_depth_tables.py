@@ -107,10 +107,8 @@ def test_one_patch_is_stepped_over_what_the_earlier_ones_left():
 
 
 def test_settings_of_triangles_and_of_samples_change_nothing():
-    scene, choice = (
-        two_triangles(),
-        Settings(antialiasing="ssaa-4", depth="inverse-w", pixel_center="integer"),
-    )
+    scene = two_triangles()
+    choice = Settings(antialiasing="ssaa-4", depth="inverse-w", pixel_center="integer")
     for settings in (choice, replace(choice, antialiasing="msaa-4", clipping="after-divide")):
         assert np.array_equal(render(scene, settings).color, render(scene).color)
         assert np.array_equal(draw_picture(scene, settings).pixels, draw_picture(scene).pixels)

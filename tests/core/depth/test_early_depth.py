@@ -128,10 +128,8 @@ def test_the_picture_and_what_is_shaded_stay(name, chosen, when) -> None:
 
 
 def test_the_listings_give_one_colour_and_call_for_it_as_often_as_rows_are_shaded() -> None:
-    stage, passes = (
-        trace(SCENES["clip"], EARLY).stage("shade"),
-        TraceSource(SCENES["clip"], EARLY).depth_tests.passes,
-    )
+    stage = trace(SCENES["clip"], EARLY).stage("shade")
+    passes = TraceSource(SCENES["clip"], EARLY).depth_tests.passes
     calls = {shade_then_test: 0, shade_if_passed: 0}
     for row in range(stage.steps.row_count):
         found = []

@@ -45,11 +45,9 @@ def slopes_at(
 
 def exact_slopes(corners, uv, x: Fraction, y: Fraction, is_affine: bool) -> list[Fraction]:
     """Return du/dx, dv/dx, du/dy, dv/dy by the quotient rule, in fractions."""
-    pixel, right, up = (
-        (x, y, Fraction(1)),
-        (Fraction(1), Fraction(0), Fraction(0)),
-        (Fraction(0), Fraction(1), Fraction(0)),
-    )
+    pixel = (x, y, Fraction(1))
+    right = (Fraction(1), Fraction(0), Fraction(0))
+    up = (Fraction(0), Fraction(1), Fraction(0))
 
     def parts(point):
         scale = [corner[2] if is_affine else Fraction(1) for corner in corners]

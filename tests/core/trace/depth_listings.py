@@ -21,10 +21,8 @@ def check_rays(traced: Trace) -> None:
     name = "end" if "end" in found.steps.kinds else "ray"
     for kind, has_nearest in ((f"{name}-first", False), (name, True), (f"{name}-exact", True)):
         for row in rows_of_kind(found, kind):
-            (triangle, nearest), ray = (
-                (found.triangle[row], c["nearest"][row]),
-                (Fraction(c["m"][row]), Fraction(c["n"][row])),
-            )
+            triangle, nearest = found.triangle[row], c["nearest"][row]
+            ray = Fraction(c["m"][row]), Fraction(c["n"][row])
             plane = [float(c[name][row]) for name in "abcd"]
             hit = hit_value(plane, c["sizes"][row].tolist(), *map(float, ray), width, height)
             assert hit == (c["nearness"][row], c["error"][row])

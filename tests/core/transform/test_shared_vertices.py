@@ -58,10 +58,8 @@ def test_placed_vertices_against_placed_corners(triangles, size, coverage: str, 
 
     # What is drawn.
     kept = geometry.kept.triangle
-    corners, edges = (
-        place_corners(clip[kept], size, coverage),
-        set_up_edges(place_corners(clip[kept], size, coverage), settings.fill_rule),
-    )
+    corners = place_corners(clip[kept], size, coverage)
+    edges = set_up_edges(place_corners(clip[kept], size, coverage), settings.fill_rule)
     x, y = corners.decided.transpose(2, 1, 0)
     z, w = clip[kept, :, 2], clip[kept, :, 3]
     assert_same(geometry.window_x, x)

@@ -30,10 +30,8 @@ def test_all_spaces_are_kept_and_follow_from_each_other() -> None:
 
 
 def test_vertices_of_several_meshes_are_numbered_on() -> None:
-    first, second = (
-        Mesh(POSITIONS, TRIANGLES),
-        Mesh(POSITIONS[:3], [[2, 1, 0]], transform=translation(0, 0, 5)),
-    )
+    first = Mesh(POSITIONS, TRIANGLES)
+    second = Mesh(POSITIONS[:3], [[2, 1, 0]], transform=translation(0, 0, 5))
     stage = transform_vertices(scene(first, second))
     assert stage.corners.tolist() == [[0, 1, 2], [0, 2, 3], [6, 5, 4]]
     assert stage.mesh.tolist() == [0, 0, 1]

@@ -113,10 +113,8 @@ def test_values_are_within_their_bound(case, by_w: bool) -> None:
     planes = set_up_ray_planes(clip, (width, height), by_w)
     generator = np.random.default_rng(len(clip))
     triangle = np.repeat(np.arange(len(clip)), 5)
-    m, n = (
-        generator.integers(-width, width + 1, len(triangle)),
-        generator.integers(-height, height + 1, len(triangle)),
-    )
+    m = generator.integers(-width, width + 1, len(triangle))
+    n = generator.integers(-height, height + 1, len(triangle))
     value, bound = planes.values(triangle, m, n)
     for f, t in enumerate(triangle.tolist()):
         x, y = Fraction(int(m[f]), width), Fraction(int(n[f]), height)
