@@ -42,11 +42,7 @@ def read_files(
 
 
 def read_folders(
-    folders: Iterable[Path],
-    read: Callable[[Path], Thing],
-    noun: str,
-    limit: int,
-    taken: Mapping[str, Thing],
+    folders: Iterable[Path], read: Callable[[Path], Thing], noun: str, limit: int, taken: Mapping[str, Thing]
 ) -> Found[Thing]:
     """Read the things of folders: up to ``limit`` files of each, not those of folders inside."""
     found: dict[str, Thing] = {}

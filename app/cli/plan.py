@@ -4,14 +4,7 @@ import argparse
 
 import numpy as np
 
-from app.cli.arguments import (
-    FILE_HELP,
-    add_settings,
-    add_size,
-    chosen_settings,
-    open_file,
-    sized,
-)
+from app.cli.arguments import FILE_HELP, add_settings, add_size, chosen_settings, open_file, sized
 from app.cli.commands import MOST_ROUNDS, add_allow_outside, whole_number
 from app.cli.study import aligned
 from app.usage import UsageError

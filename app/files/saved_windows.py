@@ -21,12 +21,7 @@ from threading import Lock
 from PySide6.QtCore import QElapsedTimer, QLockFile, QObject, QTimer, Signal, SignalInstance, Slot
 
 from app.background import Job
-from app.files.file_access import (
-    FileWriteError,
-    make_folder,
-    open_input,
-    remove_abandoned,
-)
+from app.files.file_access import FileWriteError, make_folder, open_input, remove_abandoned
 from app.files.state_arrays import ArrayFolder, array_folder
 from app.files.state_files import EXTENSION, State, StateFileError, save_state
 from app.files.state_models import Breakpoints

@@ -7,17 +7,7 @@ from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
 from app.session.document import Document, edits_beside, with_settings
 from app.session.history import History, held_arrays
-from app.session.moment import (
-    NOTHING,
-    Change,
-    Cursor,
-    Moment,
-    Pixel,
-    Step,
-    cursor_for,
-    kept_at_pixel,
-    placed,
-)
+from app.session.moment import NOTHING, Change, Cursor, Moment, Pixel, Step, cursor_for, kept_at_pixel, placed
 from app.session.stepping import Stepping
 from app.session.tracing import QUICK_SECONDS, RESTING_SECONDS, Order, Traced, Tracing, trace_drag, trace_now
 from core import Settings, Trace

@@ -297,11 +297,7 @@ class ScreenBeside(GridBeside):
         raster = self.moment.trace.source.raster
         track = next(track for track in stage.buffers if track.name == "screen")
         buffer = GridBuffer(
-            "screen",
-            track.at(done),
-            "color",
-            origin=raster.bounds[:2],
-            known=track.known_at(done),
+            "screen", track.at(done), "color", origin=raster.bounds[:2], known=track.known_at(done)
         )
         self.grid.show_buffer(buffer)
         read = np.flatnonzero(stage.steps.kind[:done] == stage.steps.kinds.index("scan"))

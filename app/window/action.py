@@ -11,9 +11,7 @@ from app.pages.step.panes import PANES, Pane, SidePane
 from app.pages.step.stepping_presenter import SteppingPresenter
 from app.views.view_space import LARGEST_WITH_CAMERA
 from app.window.focus_walk import FocusWalk
-from app.window.keys import (
-    KeyAction,
-)
+from app.window.keys import KeyAction
 from app.window.menus import next_entry, printed_group, scene_groups, scenes_about
 from app.window.parts import WindowParts
 from app.window.presenter import Presenter
@@ -145,11 +143,7 @@ def pane_row(pane: Pane) -> Row[ActionWindow]:
 def page_row(name: str, keys: str, title: str) -> Row[ActionWindow]:
     """Return what shows a page."""
     return Row(
-        f"page_{name}",
-        keys,
-        title,
-        lambda w: w.pages.show_page(name),
-        lambda w: w.pages.current_name == name,
+        f"page_{name}", keys, title, lambda w: w.pages.show_page(name), lambda w: w.pages.current_name == name
     )
 
 

@@ -2,13 +2,7 @@
 
 import numpy as np
 
-from core.antialiasing.fxaa import (
-    SmoothedPicture,
-    bends,
-    edge_pixel,
-    mixed_byte,
-    smooth_edges,
-)
+from core.antialiasing.fxaa import SmoothedPicture, bends, edge_pixel, mixed_byte, smooth_edges
 from core.framebuffer.display import encode_linear, encode_srgb, srgb_byte
 from core.records.arrays import Integers
 from core.records.listing import RETURN, Listing, Operation, listing

@@ -69,10 +69,7 @@ SIGNS_OF_W = CoverageExperiment(
     "w through 0, mixed signs",
     "Two corners of a triangle move through the eye's plane, independently. Which methods draw the part in "
     "front?",
-    (
-        Axis("second", "w of the second corner", "", SIGNS),
-        Axis("third", "w of the third corner", "", SIGNS),
-    ),
+    (Axis("second", "w of the second corner", "", SIGNS), Axis("third", "w of the third corner", "", SIGNS)),
     CLIPPINGS,
     "Projecting first is right only while all w > 0: it mirrors corners behind the eye, and draws nothing "
     "where w = 0. Clipping in clip space and homogeneous edge functions are right for all signs.",

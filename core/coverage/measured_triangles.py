@@ -129,10 +129,7 @@ COORDINATES = CoverageExperiment(
     (
         Axis("distance", "Distance of the corners", "pixels", powers(3, 30, 1), True),
         Axis(
-            "steps",
-            "Distance of the edge from the centres",
-            "1/256 pixel",
-            tuple(map(float, range(-4, 5))),
+            "steps", "Distance of the edge from the centres", "1/256 pixel", tuple(map(float, range(-4, 5)))
         ),
     ),
     FORMATS,

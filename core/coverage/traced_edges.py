@@ -302,11 +302,7 @@ def trace_bin(source: TraceSource) -> StageTrace:
         columns=columns,
         triangle=geometry.primitives.triangle[owner],
         pixel=no_pixels(len(owner)),
-        listings={
-            "outer-box": listing(outer_box),
-            "box": box,
-            "block": block,
-        },
+        listings={"outer-box": listing(outer_box), "box": box, "block": block},
         marks={"rejected": is_block & (verdict == OUTSIDE), "covered": is_block & (verdict == INSIDE)},
         extra={"blocks": blocks, "boxes": boxes, "is_split": verdict == SPLIT},
         constants={

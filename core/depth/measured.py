@@ -293,13 +293,7 @@ ORTHOGRAPHIC = Experiment(
     "Two walls stand before an orthographic camera. How small may the gap be, and does the format work at "
     "all?",
     (
-        Axis(
-            "distance",
-            "Distance, as a part of the range",
-            "",
-            (0.01, 0.03, 0.1, 0.3, 0.5, 0.7, 0.8),
-            True,
-        ),
+        Axis("distance", "Distance, as a part of the range", "", (0.01, 0.03, 0.1, 0.3, 0.5, 0.7, 0.8), True),
         Axis("gap", "Gap, as a part of the range", "", tuple(2.0**-k for k in range(30, 8, -2)), True),
     ),
     FORMATS,

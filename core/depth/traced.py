@@ -33,10 +33,7 @@ _KEY = (
 PLANAR_OPERATIONS: dict[str, tuple[Operation, ...]] = {
     "test": (_PLANE, *_KEY),
     "rounded": (Operation("depth", "depth", _DEPTH), *_KEY),
-    "plane": (
-        _PLANE,
-        Operation("write", "store", {"after": RETURN}, ("before",)),
-    ),
+    "plane": (_PLANE, Operation("write", "store", {"after": RETURN}, ("before",))),
 }
 """Kinds of rows that only depth on integer planes has; ``rounded``: tested, but the triangle has no plane."""
 

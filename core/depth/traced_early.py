@@ -56,10 +56,7 @@ def without_hidden(source: TraceSource, found: StageTrace) -> StageTrace:
         steps=steps,
         columns={**found.columns, **columns},
         listings={**found.listings, SKIPPED: listing(shade_if_left if is_prepass else shade_if_passed)},
-        marks={
-            **{name: flags & shaded for name, flags in found.marks.items()},
-            "depth-failed": ~shaded,
-        },
+        marks={**{name: flags & shaded for name, flags in found.marks.items()}, "depth-failed": ~shaded},
         buffers=(*(_of_shaded(track, shaded) for track in found.buffers), counted),
         constants={
             **found.constants,

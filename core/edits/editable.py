@@ -69,13 +69,7 @@ _PLANAR = "It compares whole numbers that stand in integer planes, packed with t
 EDITABLE = {
     part.name: part
     for part in (
-        Part(
-            "line",
-            "listing",
-            "line",
-            lines.check_line,
-            lines.edited_line,
-        ),
+        Part("line", "listing", "line", lines.check_line, lines.edited_line),
         Part(
             "cull",
             "back-face test",
@@ -137,11 +131,7 @@ EDITABLE = {
             fragments.edited_shading,
             function=_light_of,
             passed_over=fragments.shading_is_passed_over,
-            refused={
-                "gouraud": _AT_VERTICES,
-                "flat": _AT_VERTICES,
-                "unlit": "Nothing is lit.",
-            },
+            refused={"gouraud": _AT_VERTICES, "flat": _AT_VERTICES, "unlit": "Nothing is lit."},
         ),
         Part(
             "texture_filter",

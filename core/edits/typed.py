@@ -47,10 +47,7 @@ class Typed(TypedText):
         """Return what the text makes of values, which must have a shape that ``words`` describe."""
         self._check_parameters()
         return self.program.run(
-            values,
-            lanes,
-            limits=limits,
-            accept=lambda value, place: returned(value, shape, words, place),
+            values, lanes, limits=limits, accept=lambda value, place: returned(value, shape, words, place)
         )
 
     def run_blocks(

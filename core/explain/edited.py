@@ -35,10 +35,7 @@ GIVEN = {
     "blend": {"destination": "before"},
 }
 """Stage to parameters of its listings, where the column that they come from has another name."""
-PLACE = {
-    "column": "Column of the pixel, from the left.",
-    "row": "Row of the pixel, from the bottom.",
-}
+PLACE = {"column": "Column of the pixel, from the left.", "row": "Row of the pixel, from the bottom."}
 SAID_LINES = 4
 """Lines of a step that its sentence tells of."""
 EQUATIONS = 3

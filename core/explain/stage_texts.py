@@ -60,12 +60,7 @@ def _raster_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
         return [f"{counted(counts['covered'], place)} covered", *ties]
     untested = counts["covered"] + counts["rejected"] - counts["tested"]
     accepted = [f"{untested:,} accepted without a test"] if untested else []
-    return [
-        f"{counted(counts['tested'], place)} tested",
-        *accepted,
-        f"{counts['covered']:,} covered",
-        *ties,
-    ]
+    return [f"{counted(counts['tested'], place)} tested", *accepted, f"{counts['covered']:,} covered", *ties]
 
 
 def _line_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:

@@ -13,14 +13,7 @@ import numpy as np
 
 from core.framebuffer.display import encode_linear, encode_srgb
 from core.framebuffer.flushing import BYTES, Flush
-from core.framebuffer.presentation import (
-    Buffering,
-    Schedule,
-    available,
-    pictures_read,
-    schedule,
-    torn,
-)
+from core.framebuffer.presentation import Buffering, Schedule, available, pictures_read, schedule, torn
 from core.methods import table
 from core.pipeline import render
 from core.records.arrays import Integers

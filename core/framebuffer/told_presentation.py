@@ -74,9 +74,7 @@ def swapped(step: StepValues) -> Said:
     else:
         text += f"and refresh {refresh} reads it from row {line} from the top on."
     at = named("x", into / period.value * height)
-    return text, formula_of(
-        at.equals((time - named("f", refresh) * period) / period * named("H", height)),
-    )
+    return text, formula_of(at.equals((time - named("f", refresh) * period) / period * named("H", height)))
 
 
 @explains("resolve.scan.time")

@@ -363,13 +363,7 @@ AFFINE = Experiment(
     "A strip recedes from the eye. How far off are texture coordinates without perspective correction, or "
     "with it every n pixels? Right is within half a texel of 256.",
     (
-        Axis(
-            "w-ratio",
-            "Ratio of w, far over near",
-            "",
-            (1, 1.005, 1.02, 1.1, 1.25, 1.5, 2, 4, 8, 16),
-            True,
-        ),
+        Axis("w-ratio", "Ratio of w, far over near", "", (1, 1.005, 1.02, 1.1, 1.25, 1.5, 2, 4, 8, 16), True),
         Axis("width", "Length on screen", "pixels", (8, 16, 32, 64, 128, 256, 512), True),
     ),
     (

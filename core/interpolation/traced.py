@@ -71,10 +71,7 @@ def trace_interpolate(source: TraceSource) -> StageTrace:
         triangle=triangle,
         pixel=np.stack([fragments.column, fragments.row], axis=1),
         listings={kind: listing(made) for kind in kinds if (made := listings[kind])},
-        marks={
-            "covered": np.ones(len(fragments), bool),
-            "nan": np.any(~np.isfinite(values), axis=1),
-        },
+        marks={"covered": np.ones(len(fragments), bool), "nan": np.any(~np.isfinite(values), axis=1)},
         buffers=_buffers(source),
         extra={"layout": geometry.primitives.layout, "planes": geometry.planes},
     )

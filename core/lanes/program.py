@@ -131,13 +131,7 @@ class Program:
         return self.dialect.nothing if found is UNSET else found
 
     def _called(
-        self,
-        run: Run,
-        function: Function,
-        values: Sequence[Value],
-        mask: Some,
-        place: Place,
-        depth: int,
+        self, run: Run, function: Function, values: Sequence[Value], mask: Some, place: Place, depth: int
     ) -> Value:
         if depth >= run.limits.calls:
             raise Problem(place, f"{function.name} calls itself, or calls go deeper than {run.limits.calls}")

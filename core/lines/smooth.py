@@ -241,10 +241,7 @@ def wu_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> 
     needs=(BLENDING,),
     listing=wu_listing,
     operations=line_rows(
-        "wu",
-        (*_SET_UP, *_COLUMN, _FRACTION, *_DIVIDED),
-        (*_COLUMN, _FRACTION, *_DIVIDED),
-        beside=_DIVIDED,
+        "wu", (*_SET_UP, *_COLUMN, _FRACTION, *_DIVIDED), (*_COLUMN, _FRACTION, *_DIVIDED), beside=_DIVIDED
     ),
     traits=LineTraits(reach=0.5, pixels_in_column=2, columns=_before_divided),
 )

@@ -151,13 +151,7 @@ class ShaderFunctions(Program):
     compiler = ShaderStatements
 
     def _called(
-        self,
-        run: Run,
-        function: Function,
-        values: Sequence[Any],
-        mask: Some,
-        place: Place,
-        depth: int,
+        self, run: Run, function: Function, values: Sequence[Any], mask: Some, place: Place, depth: int
     ) -> Any:
         assert isinstance(run, ShaderRun)
         if depth >= run.limits.calls:

@@ -21,11 +21,7 @@ import numpy as np
 from core.methods import method
 from core.records.arrays import Flags, Floats, Integers
 from core.scene import Light
-from core.shading.lighting import (
-    Surface,
-    dot,
-    planes,
-)
+from core.shading.lighting import Surface, dot, planes
 
 # A method of shading that lights points by a rule of its own: an edited listing.
 

@@ -195,10 +195,7 @@ def trace_shade(source: TraceSource) -> StageTrace:
         triangle=triangle,
         pixel=np.stack([fragments.column, fragments.row], axis=1),
         listings=_listings(source, has_normals),
-        marks={
-            "covered": np.ones(len(fragments), bool),
-            "nan": np.any(np.isnan(surface.color), axis=1),
-        },
+        marks={"covered": np.ones(len(fragments), bool), "nan": np.any(np.isnan(surface.color), axis=1)},
         buffers=_buffers(source, columns, is_textured),
         extra={"textures": _textures(source), "mesh": mesh},
     )

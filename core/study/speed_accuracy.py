@@ -16,15 +16,7 @@ import numpy as np
 from core.scene import AnyScene
 from core.settings import Settings
 from core.study.families import study_family
-from core.study.family import (
-    Assignment,
-    Candidate,
-    StudyFamily,
-    Task,
-    chosen_dials,
-    settings_of,
-    timed_block,
-)
+from core.study.family import Assignment, Candidate, StudyFamily, Task, chosen_dials, settings_of, timed_block
 from core.study.record import (
     SURE,
     Axis,

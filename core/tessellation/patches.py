@@ -76,9 +76,7 @@ def grid_points(control: Floats, grid: PatchGrid) -> tuple[Floats, Floats]:
         one, other = by_first[flat], by_second[flat]
         is_first = (one * one).sum(axis=1) < (other * other).sum(axis=1)
         beside = np.where(
-            is_first[:, None],
-            cross(inward[:, 1:] * mixed, other),
-            cross(one, inward[:, :1] * mixed),
+            is_first[:, None], cross(inward[:, 1:] * mixed, other), cross(one, inward[:, :1] * mixed)
         )
         normals[flat] = beside
     return patch_points(net, down, across), normals

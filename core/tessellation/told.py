@@ -252,10 +252,7 @@ def emitted(step: StepValues) -> Said:
     return f"{_curve(step)} emits the vertex {vector_text(place)}, the point of its last level, {rest}."
 
 
-hides(
-    f"transform.{POINTS}|{CUTS}",
-    ("corner", "vertex", "before", "width", "height"),
-)
+hides(f"transform.{POINTS}|{CUTS}", ("corner", "vertex", "before", "width", "height"))
 shows(
     "transform",
     {

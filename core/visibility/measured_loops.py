@@ -46,10 +46,7 @@ class LoopsTask(SeenTask):
             asked = {"triangles asked": rays * triangles}
         else:
             walk = walk_of_all_rays(self.scene, settings)
-            asked = {
-                "boxes asked": int(walk.box_count.sum()),
-                "triangles asked": int(walk.asked_count.sum()),
-            }
+            asked = {"boxes asked": int(walk.box_count.sum()), "triangles asked": int(walk.asked_count.sum())}
         return {"asked in all: triangles, fragments, boxes": sum(asked.values()), **asked}
 
 

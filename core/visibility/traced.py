@@ -29,11 +29,7 @@ _WRITE = Operation("write", "store", {"after": RETURN}, ("stored", "before"))
 _OTHER = ("nearest", "nearest_nearness", "nearest_error")
 RAY_OPERATIONS: dict[str, tuple[Operation, ...]] = {
     "ray-first": (*_HIT, Operation("keep", "first", {"passes": RETURN}, ("stored", "after"))),
-    "ray": (
-        *_HIT,
-        Operation("compare", "floats", {"passes": RETURN}, (*_OTHER, "sign")),
-        _WRITE,
-    ),
+    "ray": (*_HIT, Operation("compare", "floats", {"passes": RETURN}, (*_OTHER, "sign")), _WRITE),
     "ray-exact": (
         *_HIT,
         Operation("doubt", "margin", (), _OTHER),

@@ -17,21 +17,14 @@ from core.visibility.ray_casting import BY_FLOATS, EXACTLY, FIRST, hit_is_nearer
 from core.visibility.scan_line import ALONE, HALVED, PAIR, SAME, ScanLines, draw_rows
 
 SEGMENT_BY_SEGMENT = RowOrder(
-    ("Row", "Span", "Compare"),
-    sums=(("rows", "step", ""), ("covered", "place", "drawn"), ("tie", "tie", "")),
+    ("Row", "Span", "Compare"), sums=(("rows", "step", ""), ("covered", "place", "drawn"), ("tie", "tie", ""))
 )
 """One row of pixels after another, in it one segment after another, in it one comparison after another."""
 
-_HIT = (
-    Operation("hit", "value", {"nearness": "value"}),
-    Operation("bound", "bound", {"error": "bound"}),
-)
+_HIT = (Operation("hit", "value", {"nearness": "value"}), Operation("bound", "bound", {"error": "bound"}))
 _OTHER = ("nearest", "nearest_nearness", "nearest_error")
 _LIVE = Operation("live", "live", {"live_count": "live"})
-_ENDS = (
-    Operation("first", "first", {"first": "first"}),
-    Operation("last", "last", {"last": "last"}),
-)
+_ENDS = (Operation("first", "first", {"first": "first"}), Operation("last", "last", {"last": "last"}))
 
 
 def _drawn_by(columns: Columns, rows: Any) -> NDArray[np.str_]:
@@ -102,12 +95,7 @@ class _Rows:
 
 def trace_scan_lines(source: TraceSource, lines: ScanLines) -> StageTrace:
     """Return the rows of the method; ``lines`` has decided the fragments (F,) that are in depth range."""
-    parts = [
-        _lost(source),
-        *_surfaces(lines),
-        *_segments(source, lines),
-        _pixels(source, lines),
-    ]
+    parts = [_lost(source), *_surfaces(lines), *_segments(source, lines), _pixels(source, lines)]
     count = [len(part.kind) for part in parts]
     row = np.concatenate([part.row for part in parts])
     keys = [
@@ -145,10 +133,7 @@ def trace_scan_lines(source: TraceSource, lines: ScanLines) -> StageTrace:
         triangle=triangle,
         pixel=np.stack([column, row], axis=1),
         listings=_listings(),
-        constants={
-            **ray_constants(lines.planes),
-            "quantity": source.depth_format.quantity.name,
-        },
+        constants={**ray_constants(lines.planes), "quantity": source.depth_format.quantity.name},
         marks=_marks(kind, columns),
         buffers=_buffers(source, kind, columns, triangle),
         extra={"scan_lines": lines},
@@ -176,11 +161,7 @@ def _lost(source: TraceSource) -> _Rows:
         fragments.column[lost],
         source.triangle_of_fragment[lost],
         (_RANGE, np.arange(len(lost)), 0, 0),
-        {
-            "depth": depth[lost],
-            "passes": np.zeros(len(lost), bool),
-            "primitive": fragments.primitive[lost],
-        },
+        {"depth": depth[lost], "passes": np.zeros(len(lost), bool), "primitive": fragments.primitive[lost]},
     )
 
 

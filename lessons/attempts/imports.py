@@ -121,11 +121,7 @@ def _marked(attempt: Attempt, template: Template | None) -> Attempt:
 
 
 def _sentences(
-    given: Sequence[Attempt],
-    judged: Sequence[Attempt],
-    unknown: Counter[str],
-    changed: int,
-    now: datetime,
+    given: Sequence[Attempt], judged: Sequence[Attempt], unknown: Counter[str], changed: int, now: datetime
 ) -> Iterable[str]:
     """Yield what is to be told."""
     again = len(judged) - unknown.total()

@@ -55,10 +55,7 @@ _INSERT = (
     f"WHERE attempts.verdict LIKE '{NOT_CHECKED}%' AND excluded.verdict NOT LIKE '{NOT_CHECKED}%'"
 )
 """What is there stays, but for an attempt that could not be checked when it came and now is."""
-_REASONS = {
-    sqlite3.SQLITE_FULL: "the disk is full",
-    sqlite3.SQLITE_BUSY: "another window is writing to it",
-}
+_REASONS = {sqlite3.SQLITE_FULL: "the disk is full", sqlite3.SQLITE_BUSY: "another window is writing to it"}
 _REFUSED = (sqlite3.SQLITE_READONLY, sqlite3.SQLITE_PERM, sqlite3.SQLITE_CANTOPEN)
 """The system refused the file: it knows why."""
 

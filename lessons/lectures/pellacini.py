@@ -219,11 +219,7 @@ TESTED_FIRST = PrintedListing(
     "midpoint",
     {"tested before m is added": bresenham_tested_first},
     rule=ListedLines(bresenham_tested_first, 0.5, takes_pixels=False),
-    rows=(
-        _FIRST,
-        (NEXT, TEST, advance("d"), PLOT),
-        (NEXT, TEST, STEP, correct("d"), advance("d"), PLOT),
-    ),
+    rows=(_FIRST, (NEXT, TEST, advance("d"), PLOT), (NEXT, TEST, STEP, correct("d"), advance("d"), PLOT)),
     like="bresenham-float",
 )
 """The loop with its lines in the order of the slide before it; no slide prints it."""
@@ -265,11 +261,7 @@ BRESENHAM = PrintedListing(
         ),
     ),
     rule=ListedLines(bresenham, 0.5, takes_pixels=False),
-    rows=(
-        _FIRST,
-        (NEXT, advance("d"), TEST, PLOT),
-        (NEXT, advance("d"), TEST, STEP, correct("d"), PLOT),
-    ),
+    rows=(_FIRST, (NEXT, advance("d"), TEST, PLOT), (NEXT, advance("d"), TEST, STEP, correct("d"), PLOT)),
     like="bresenham-float",
     beside=TESTED_FIRST,
 )

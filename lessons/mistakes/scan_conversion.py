@@ -16,16 +16,7 @@ from core.scene import ClipScene
 from lessons.assembled_scenes import assembled
 from lessons.mistakes.coverage import FREE, SQUARE, with_places
 from lessons.mistakes.transforms import Vector
-from lessons.mistakes.twin import (
-    Case,
-    Change,
-    Twin,
-    WrongRule,
-    edited,
-    in_window,
-    line_pixels,
-    same_settings,
-)
+from lessons.mistakes.twin import Case, Change, Twin, WrongRule, edited, in_window, line_pixels, same_settings
 from lessons.small_scenes import Point, pixel_segments, segment_scene, triangle_scene
 from lessons.window_scenes import polygon_of_rings
 

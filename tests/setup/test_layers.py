@@ -67,12 +67,7 @@ def check_layers(folder: Path, statements: list[tuple[str, str]]) -> "subprocess
     for name in ("app", "core", "lessons", "widgets", *CORE, *(f"app/{name}" for name in APP)):
         (folder / name).mkdir()
         (folder / name / "__init__.py").touch()
-    for name in (
-        "core/pipeline.py",
-        "app/module.py",
-        "app/__main__.py",
-        "app/usage.py",
-    ):
+    for name in ("core/pipeline.py", "app/module.py", "app/__main__.py", "app/usage.py"):
         (folder / name).touch()
     for number, (package, statement) in enumerate(statements):
         (folder / package / f"case_{number}.py").write_text(f"{statement}\n")

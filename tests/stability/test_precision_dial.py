@@ -7,13 +7,7 @@ import pytest
 
 from core import ClipScene, Settings, render
 from core.coverage.measured_cover import as_given
-from core.coverage.measured_pixel import (
-    AREA,
-    ELIMINATION,
-    OVERFLOW,
-    DialReading,
-    precision_dial,
-)
+from core.coverage.measured_pixel import AREA, ELIMINATION, OVERFLOW, DialReading, precision_dial
 from core.coverage.measured_triangles import FORMATS, far_corners, sliver
 
 CENTER = (41, 35)

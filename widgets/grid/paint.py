@@ -49,12 +49,7 @@ def paint_image(painter: QPainter, placement: GridPlacement, image: QImage) -> N
     painter.restore()
 
 
-def paint_lines(
-    painter: QPainter,
-    placement: GridPlacement,
-    theme: Theme,
-    has_centres: bool,
-) -> None:
+def paint_lines(painter: QPainter, placement: GridPlacement, theme: Theme, has_centres: bool) -> None:
     """Paint grid lines, and with ``has_centres`` the pixels' centres, where the cells are large enough."""
     raster = placement.cells_rect(0, 0, placement.columns, placement.rows)
     shown = raster.intersected(QRectF(placement.viewport))
@@ -246,10 +241,7 @@ def centres_are_free(writing: Writing | None) -> bool:
 
 
 def number_boxes(
-    placement: GridPlacement,
-    buffer: GridBuffer,
-    writing: Writing,
-    cells: set[tuple[int, int]],
+    placement: GridPlacement, buffer: GridBuffer, writing: Writing, cells: set[tuple[int, int]]
 ) -> QRegion:
     """Return what the values written into some cells (column, row) take, which no line may cross."""
     region = QRegion()

@@ -4,15 +4,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
 from PySide6.QtGui import QAction, QKeyEvent, QResizeEvent, QTextDocumentFragment
-from PySide6.QtWidgets import (
-    QLineEdit,
-    QMenu,
-    QSizePolicy,
-    QStackedWidget,
-    QTabBar,
-    QToolButton,
-    QWidget,
-)
+from PySide6.QtWidgets import QLineEdit, QMenu, QSizePolicy, QStackedWidget, QTabBar, QToolButton, QWidget
 
 from core.lanes.problem import NAME_LENGTH
 from widgets.basics.accessibility import announce
@@ -81,10 +73,7 @@ class ListingPane(QWidget):
         self.name_field.setAccessibleName("Name of your version")
         self.name_field.hide()
         self.edit_button, self.reset_button = QToolButton(self), QToolButton(self)
-        for button, text, tip in (
-            (self.edit_button, "Edit", EDIT_TIP),
-            (self.reset_button, "Reset", ""),
-        ):
+        for button, text, tip in ((self.edit_button, "Edit", EDIT_TIP), (self.reset_button, "Reset", "")):
             button.setText(text)
             button.setToolTip(tip)
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)

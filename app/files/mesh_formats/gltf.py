@@ -9,13 +9,7 @@ import numpy as np
 from app.files.file_access import NamedFileError, NamedFiles, left_out
 from app.files.mesh_formats.gltf_buffers import GltfFile, MeshParts, Node, Primitive
 from app.files.mesh_formats.images import TextureReader
-from app.files.mesh_formats.reading import (
-    DRAWING,
-    LoadedMeshes,
-    MeshFileError,
-    Report,
-    check_mesh_count,
-)
+from app.files.mesh_formats.reading import DRAWING, LoadedMeshes, MeshFileError, Report, check_mesh_count
 from app.session.memory import Need, check_free
 from core.records.arrays import Floats, Integers
 from core.scene import Mesh, Texture

@@ -8,14 +8,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Slot
 from PySide6.QtWidgets import QMenu
 
-from app.pages.exercises.answers import (
-    Checked,
-    Live,
-    coverage_of,
-    document_of,
-    picture_of,
-    scene_outline,
-)
+from app.pages.exercises.answers import Checked, Live, coverage_of, document_of, picture_of, scene_outline
 from app.pages.page_bar import Page, StepRequest
 from core import STAGES, trace
 from core.records.frame import Frame

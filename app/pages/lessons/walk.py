@@ -78,12 +78,7 @@ class LessonWalk(QObject):
         self.task.stop()
 
     def begin(
-        self,
-        course: Course,
-        lesson: Lesson,
-        number: int | None,
-        standings: Sequence[Standing],
-        recall: str,
+        self, course: Course, lesson: Lesson, number: int | None, standings: Sequence[Standing], recall: str
     ) -> None:
         """Open a lesson at one of its steps; ``None``: at its beginning, which is the exercise ``recall`` if any."""
         self.course, self.lesson, self.standings = course, lesson, list(standings)

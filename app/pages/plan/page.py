@@ -17,10 +17,7 @@ from widgets.experiments.case_pictures import StudyPictures
 from widgets.experiments.plan import PlanControls, PlanFindings, PlanRows, PlanSummary
 
 WORDS = WorkWords(
-    "Plan",
-    "The analysis was cancelled",
-    "The scene could not be analysed",
-    "the previous plan is unchanged",
+    "Plan", "The analysis was cancelled", "The scene could not be analysed", "the previous plan is unchanged"
 )
 
 

@@ -286,10 +286,4 @@ BILINEAR = Task(
     number_text,
 )
 
-TASKS = (
-    PERSPECTIVE,
-    AFFINE,
-    DEPTH_TEST,
-    OVER,
-    BILINEAR,
-)
+TASKS = (PERSPECTIVE, AFFINE, DEPTH_TEST, OVER, BILINEAR)

@@ -13,16 +13,7 @@ from core.records.depth_table import DepthTable, text_of_depths
 from core.scene import ClipScene
 from lessons.exercises.answers.choices import OrderAnswer
 from lessons.exercises.answers.fields import Column, Rows, TableAnswer, empty_rows, followed
-from lessons.exercises.drafting import (
-    by_rule,
-    drafted,
-    listed,
-    numbers,
-    one_of,
-    place_text,
-    several,
-    table,
-)
+from lessons.exercises.drafting import by_rule, drafted, listed, numbers, one_of, place_text, several, table
 from lessons.exercises.numbers import Draws, number_text, reject
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.fragments import follow_buffer

@@ -37,8 +37,7 @@ def test_render_draws_what_the_listing_says(listings):
     run = run_program("render", "shared-edge", "--set", "fill=bounding-box", "--edit", edit, "--buffers", out)
     assert (run.returncode, run.stderr) == (0, "")
     ours = render(
-        make_scene("shared-edge"),
-        apply_edit(Settings(), Edit("fill", "bounding-box", texts["test.py"])),
+        make_scene("shared-edge"), apply_edit(Settings(), Edit("fill", "bounding-box", texts["test.py"]))
     )
     with np.load(out) as found:
         np.testing.assert_array_equal(found["primitive"], ours.primitive)

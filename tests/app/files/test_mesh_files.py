@@ -238,9 +238,7 @@ def test_a_reader_that_nobody_listens_to_any_more_is_quiet(tmp_path):
     path = write(tmp_path / "a.obj", SQUARE + "f 1 2 3\n")
     order = [json.dumps([str(mesh_files.PROJECT), *filter(None, sys.path)]), str(path), ""]
     with subprocess.Popen(
-        [sys.executable, "-P", "-c", mesh_files.START, *order],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
+        [sys.executable, "-P", "-c", mesh_files.START, *order], stdout=subprocess.PIPE, stderr=subprocess.PIPE
     ) as process:
         process.stdout.close()
         assert process.stderr.read() == b""

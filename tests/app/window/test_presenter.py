@@ -186,11 +186,7 @@ def test_states_of_a_folder_follow_each_other(window: MainWindow, qtbot: QtBot, 
     window.presenter.arrange()
     window.open_path(str(tmp_path / "Lecture 1.rasterscope"))
     qtbot.waitUntil(lambda: session.cursor.position == 10)
-    for key, position in (
-        (Qt.Key.Key_PageDown, 20),
-        (Qt.Key.Key_PageDown, 100),
-        (Qt.Key.Key_PageUp, 20),
-    ):
+    for key, position in ((Qt.Key.Key_PageDown, 20), (Qt.Key.Key_PageDown, 100), (Qt.Key.Key_PageUp, 20)):
         press(window, key, CTRL_SHIFT)
         qtbot.waitUntil(lambda position=position: session.cursor.position == position)
     assert window.presenter.hint.text() == "State 2 of 3: lecture 2"
@@ -277,10 +273,7 @@ TABLES = [
 ]
 
 
-@in_turns(
-    size=SIZES if is_everything() else SIZES[:1],
-    table=TABLES if is_everything() else TABLES[::3],
-)
+@in_turns(size=SIZES if is_everything() else SIZES[:1], table=TABLES if is_everything() else TABLES[::3])
 def test_tables_are_seen_whole(window: MainWindow, size: tuple[int, int], table: tuple[str, str]) -> None:
     scene, stage = table
     page, session = window.page, window.session

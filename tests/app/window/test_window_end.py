@@ -51,10 +51,7 @@ def test_closing_ends_every_thread(tmp_path: Path, target: str, act: str) -> Non
 
 @pytest.mark.parametrize(
     ("act", "last_page"),
-    [
-        (f"{MAPPED[1]}; {OPENED[1]}", "stability"),
-        pytest.param(WITHOUT_END, "step", marks=pytest.mark.slow),
-    ],
+    [(f"{MAPPED[1]}; {OPENED[1]}", "stability"), pytest.param(WITHOUT_END, "step", marks=pytest.mark.slow)],
 )
 def test_a_scene_given_at_the_start_is_shown_whatever_page_was_shown_last_and_closing_ends_all(
     tmp_path: Path, act: str, last_page: str

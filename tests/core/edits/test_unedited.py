@@ -39,11 +39,7 @@ FEW = ("intersecting", "near-plane", "fan")
 """Of the triangles, those whose outlines are drawn here."""
 
 
-SHOWN = {
-    **dict.fromkeys(OF_LINES, "clipped-segment"),
-    "texture_filter": "textured-clip",
-    "shading": "lit",
-}
+SHOWN = {**dict.fromkeys(OF_LINES, "clipped-segment"), "texture_filter": "textured-clip", "shading": "lit"}
 """Scenes of which a stage is traced, where an edit does not run in the usual one."""
 
 

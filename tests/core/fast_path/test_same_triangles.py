@@ -116,10 +116,7 @@ def with_area(area: float, at: np.ndarray, slant: float) -> np.ndarray:
     return at + np.array([[0.0, 0.0], [width, 0.0], [slant, 2 * area / width]])
 
 
-@in_turns(
-    depth=table.names("depth"),
-    area=[BIG_AREA - 0.25, BIG_AREA, 3 * BIG_AREA],
-)
+@in_turns(depth=table.names("depth"), area=[BIG_AREA - 0.25, BIG_AREA, 3 * BIG_AREA])
 def test_triangles_just_below_and_above_the_area_of_bands(depth: str, area: float) -> None:
     size = (310, 233)
     corners = [

@@ -9,12 +9,7 @@ from hypothesis import strategies as st
 
 from core import Settings, draw_triangles
 from core.coverage.snapping import place_corners
-from core.interpolation.interpolation import (
-    interpolate,
-    plane_value,
-    set_up_planes,
-    value_plane,
-)
+from core.interpolation.interpolation import interpolate, plane_value, set_up_planes, value_plane
 from tests.core.exact_reference import determinant, homogeneous_window
 from tests.core.strategies import clip_of_window, homogeneous_triangles, perspective_triangles
 

@@ -60,14 +60,8 @@ HOSTILE = {
     "growing list of lists": ("a = [0]\nfor k in range(9000):\n  a.append((k, k, k))", "numbers|rounds"),
     "growing product": ("a = 3\nfor k in range(1000):\n  a = a * a", TOO_LARGE),
     "growing sum": ("a = 4503599627370496\nfor k in range(1000):\n  a = a + a", TOO_LARGE),
-    "growing sum of lanes": (
-        "a = x0 + 4503599627370496\nfor k in range(1000):\n  a = a + a",
-        TOO_LARGE,
-    ),
-    "falling sum of lanes": (
-        "a = x0 - 4503599627370496\nfor k in range(1000):\n  a = a + a",
-        TOO_LARGE,
-    ),
+    "growing sum of lanes": ("a = x0 + 4503599627370496\nfor k in range(1000):\n  a = a + a", TOO_LARGE),
+    "falling sum of lanes": ("a = x0 - 4503599627370496\nfor k in range(1000):\n  a = a + a", TOO_LARGE),
     "product of lanes": ("a = (x0 + 4503599627370496) * (y0 + 4503599627370496)", TOO_LARGE),
     "many lists": ("\n".join(f"v{k} = [x0 for j in range(4000)]" for k in range(150)), "stopped"),
     "attribute": ("a = x0.__class__.__bases__", "not in the language"),

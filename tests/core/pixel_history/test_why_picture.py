@@ -108,9 +108,7 @@ def test_smoothed_lines_under_ray_casting(line):
 
 
 @pytest.mark.parametrize(
-    ("name", "choice"),
-    CASES if is_everything() else in_turn(SCENES, EACH_METHOD),
-    ids=name_of,
+    ("name", "choice"), CASES if is_everything() else in_turn(SCENES, EACH_METHOD), ids=name_of
 )
 def test_history_ends_in_the_picture(name, choice):
     scene = SCENES[name]

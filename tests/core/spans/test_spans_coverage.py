@@ -8,15 +8,7 @@ from hypothesis import strategies as st
 from core import ClipScene, Settings, render
 from core.methods import table
 from tests.core.exact_reference import exact_coverage
-from tests.core.spans.adversarial import (
-    LIMIT,
-    PROJECTED,
-    SIZES,
-    drawn,
-    in_whole_numbers,
-    mixed,
-    projected,
-)
+from tests.core.spans.adversarial import LIMIT, PROJECTED, SIZES, drawn, in_whole_numbers, mixed, projected
 from tests.core.strategies import clip_of_window, homogeneous_triangles
 from tests.covering import is_everything
 

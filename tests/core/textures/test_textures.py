@@ -8,13 +8,7 @@ from hypothesis import strategies as st
 
 from core.methods import table
 from core.scene import Texture
-from core.textures.look_up import (
-    bilinear_color,
-    nearest_color,
-    sample_texture,
-    texture_colors,
-    wrapped_index,
-)
+from core.textures.look_up import bilinear_color, nearest_color, sample_texture, texture_colors, wrapped_index
 
 ORACLE = Path(__file__).resolve().parents[4] / "shared" / "oracle"
 FILTERS = ["bilinear", "nearest"]

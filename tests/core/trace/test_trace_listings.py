@@ -125,9 +125,7 @@ def check_all(traced: Trace) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "choice"),
-    in_turn(["clip", "lit", "orthographic", "textured-clip"], EACH_METHOD),
-    ids=name_of,
+    ("name", "choice"), in_turn(["clip", "lit", "orthographic", "textured-clip"], EACH_METHOD), ids=name_of
 )
 def test_listings_of_all_stages(name, choice):
     scene = SCENES[name]

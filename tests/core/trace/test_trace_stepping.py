@@ -98,9 +98,7 @@ def check_rows(steps: Steps, position: int) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "choice"),
-    in_turn(["clip", "lit", "textured-clip", "near-plane"], EACH_METHOD),
-    ids=name_of,
+    ("name", "choice"), in_turn(["clip", "lit", "textured-clip", "near-plane"], EACH_METHOD), ids=name_of
 )
 def test_every_stage_steps_both_ways_and_is_explained(name, choice):
     for found in traces_of(name, choice):

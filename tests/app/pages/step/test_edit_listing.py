@@ -314,8 +314,7 @@ def test_a_long_run_leaves_the_window_free_and_escape_ends_it(
 ) -> None:
     # In the background the clock stands still, so that only the key ends the run, however busy the machine is.
     monkeypatch.setattr(
-        "core.lanes.run.thread_time",
-        lambda: thread_time() if current_thread() is main_thread() else 0.0,
+        "core.lanes.run.thread_time", lambda: thread_time() if current_thread() is main_thread() else 0.0
     )
     window.session.open(open_any("shared-edge").document)
     window.session.set_stage("interpolate", 40)
