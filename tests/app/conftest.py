@@ -50,9 +50,7 @@ def window(request: pytest.FixtureRequest) -> MainWindow:
     """Return a shown window: one of the test's own, or the one that the tests of its module share."""
     marks = {mark.name for mark in request.node.iter_markers()}
     is_shared = "shared_window" in marks and "own_window" not in marks
-    found = request.getfixturevalue("kept_window" if is_shared else "new_window")
-    assert isinstance(found, MainWindow)
-    return found
+    return request.getfixturevalue("kept_window" if is_shared else "new_window")
 
 
 @pytest.fixture

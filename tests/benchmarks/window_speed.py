@@ -70,7 +70,6 @@ def main() -> int:
     from widgets.basics.theme import LIGHT
 
     application = QApplication.instance() or QApplication(["rasterscope"])
-    assert isinstance(application, QApplication)
     apply_theme(application, LIGHT)
     window = MainWindow(open_document(make_scene("single-triangle"), "Single triangle"))
     window.resize(1280, 800)

@@ -146,7 +146,6 @@ def check_case(case: Case) -> None:
 
 def _check_fast_path(scene: AnyScene, settings: Settings, frame: Frame) -> None:
     with_depth = draw_picture(scene, settings, with_depth=True)
-    assert with_depth.depth is not None
     assert with_depth.depth.dtype == frame.depth.dtype
     assert np.array_equal(with_depth.depth, frame.depth, equal_nan=True), with_depth.route
     expected = to_display(frame.color).pixels.astype(int)

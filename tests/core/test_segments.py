@@ -114,8 +114,6 @@ def test_every_stage_has_its_steps_and_those_of_areas_have_none(kind):
 def of_kind(case: Case, kind: str) -> Case:
     """Return the case with the first corners of its triangles."""
     scene, count = case.scene, CORNER_COUNTS[kind]
-    assert isinstance(scene, ClipScene)
-    assert scene.attributes is not None
     cut = ClipScene(
         scene.clip[:, :count],
         scene.attributes[:, :count],

@@ -207,7 +207,6 @@ class Child:
 
     def problem(self, path: Path) -> str:
         """Open a file; return what is wrong with how that went, or an empty text."""
-        assert self.process.stdin is not None
         self.process.stdin.write(json.dumps(str(path)).encode() + b"\n")
         self.process.stdin.flush()
         begun, start = processor_seconds(self.process.pid), time.monotonic()
@@ -234,8 +233,6 @@ class Child:
 
     def end(self) -> None:
         """End the process."""
-        assert self.process.stdin is not None
-        assert self.process.stdout is not None
         self.process.kill()
         self.process.wait()
         self.process.stdin.close()
@@ -253,7 +250,6 @@ def processor_seconds(pid: int) -> float:
 
 def listen(process: "subprocess.Popen[bytes]", answers: "SimpleQueue[dict[str, object] | None]") -> None:
     """Put every answer of a child into a queue, and ``None`` at its end."""
-    assert process.stdout is not None
     for line in process.stdout:
         answers.put(json.loads(line))
     answers.put(None)

@@ -40,7 +40,6 @@ class EditedSession:
         self.listener.start()
 
     def listen(self) -> None:
-        assert self.process.stdout is not None
         for line in self.process.stdout:
             self.edits.append((int(line), time.monotonic()))
 
@@ -96,7 +95,6 @@ def test_what_was_saved_before_a_program_is_killed_is_offered(folder: Path) -> N
         time.sleep(0.02)
     session.end("SIGKILL")
     found = reopen()
-    assert found.message is not None
     assert found.message.text.startswith("Rasterscope ended without closing its window (edit ")
     assert found.message.action == "Restore"
     assert found.opened.document.title == "Single triangle"

@@ -73,7 +73,6 @@ def used_clone(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = clone / ".venv"
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", str(folder)], check=True)
     here = importlib.util.find_spec("pip")
-    assert here is not None
     assert here.origin is not None
     packages = next(folder.glob("[Ll]ib*/**/site-packages"))
     (packages / "pip.pth").write_text(str(Path(here.origin).parents[1]))

@@ -31,7 +31,6 @@ LOADER = {"ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}
 
 def qt_folder() -> Path:
     spec = importlib.util.find_spec("PySide6")
-    assert spec is not None
     assert spec.origin is not None
     return Path(spec.origin).parent
 

@@ -47,7 +47,6 @@ def test_runs_can_be_repeated_and_open_at_a_pixel_that_is_wrong(name: str) -> No
                 assert opening is None
                 continue
             assert verdict.severity >= 0
-            assert opening is not None
             assert opening.settings == settings_of(opening.settings, method)
             shows_pixel = verdict.outcome != Outcome.RIGHT and experiment.can_shrink
             assert (opening.pixel is not None) == shows_pixel

@@ -139,9 +139,7 @@ def test_the_pixels_that_are_judged_are_those_of_the_picture(coverage: str) -> N
 def test_a_click_opens_the_very_case_at_its_first_wrong_pixel() -> None:
     experiment = experiments.get("slivers")
     opened = experiment.opening("coverage=snapped", (2.0**-12, 2.0**-14), 0)
-    assert opened is not None
     assert opened.settings.coverage == "snapped"
-    assert opened.pixel is not None
     column, row = opened.pixel
     assert render(opened.scene, opened.settings).cover_count[row, column] == 0
     assert experiment.opening("coverage=exact", (2.0**-12, 2.0**-14), 0).pixel is None

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core.study.families import study_family
-from core.study.record import Opening, Verdict, judged
+from core.study.record import Verdict, judged
 from core.study.stability import Outcome, stress, study_experiment
 from core.study.stress import shrink_cell
 
@@ -35,7 +35,6 @@ def test_every_error_with_a_number_decides_or_the_one_that_is_named() -> None:
 
 def test_a_cell_of_a_study_opens_and_is_not_made_smaller() -> None:
     opened = ANGLES.opening("coverage=snapped", (0.05,), 0)
-    assert isinstance(opened, Opening)
     assert opened.pixel is not None
     with pytest.raises(ValueError, match="nothing of coverage-slivers can be made smaller"):
         shrink_cell(ANGLES, "coverage=snapped", (0.05,))

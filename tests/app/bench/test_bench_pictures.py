@@ -89,7 +89,6 @@ def test_two_processes_draw_large_meshes_and_say_who_drew_what() -> None:
     assert ours_shared.contender(some_lines()) is None
     work = small_sphere(is_per_pixel=False, columns=120)
     contender = ours_shared.contender(work)
-    assert contender is not None
     assert (contender.library, contender.kind) == ("Rasterscope, 2 processes", "ours")
     with ExitStack() as stack:
         prepared = contender.prepare(stack)
@@ -126,7 +125,6 @@ def test_all_readers_give_the_mesh_of_the_file(extension: str) -> None:
     assert reference.primitive_count == len(triangles) == 320
     for module in (ours, trimesh_peer) if extension != ".obj" else (ours, ours_child, trimesh_peer):
         contender = module.contender(work)
-        assert contender is not None
         with ExitStack() as stack:
             prepared = contender.prepare(stack)
             assert compare(prepared.picture(prepared.run()), False, reference).is_none
@@ -137,7 +135,6 @@ def test_all_readers_give_the_mesh_of_the_file(extension: str) -> None:
 def test_a_fresh_process_draws_the_same_picture() -> None:
     work = random_triangles(1, 50, (64, 48), 40.0)
     contender = cold_contender(ours, ColdStart(work))
-    assert contender is not None
     with ExitStack() as stack:
         pixels = contender.prepare(stack).run()
     assert compare(pixels, False, make_reference(work)).is_none

@@ -88,6 +88,5 @@ def test_a_record_quotes_the_line_that_its_step_names_and_keeps_the_signs_of_inf
     stage = core_trace(make_scene("shared-edge"), Settings()).stage("raster")
     for position, done in trace_tables.explanations(stage, 0):
         made = next(o for o in trace_tables.row_record(stage, 0)["operations"] if o["position"] == position)
-        assert done.listing is not None
         assert made["code"] == done.listing.source.splitlines()[made["line"] - 1].strip()
     assert trace_tables.plain([float("inf"), float("-inf"), float("nan")]) == ["Infinity", "-Infinity", None]

@@ -191,8 +191,6 @@ def test_charts_on_paper_are_those_of_the_page(study: Study, qapp: QApplication)
     with paint_as(LIGHT):
         sheet = study_sheet(study, study.measures[0])
     scatter, growth = (chart.picture for chart in sheet.findChildren(Chart))
-    assert scatter is not None
-    assert growth is not None
     assert [float(series.y[0]) for series in scatter.series] == [0.0, 0.0, 12.25]
     assert scatter.front == ("coverage=float64", "fill=spans")
     assert [len(series.x) for series in growth.series] == [3, 2, 1]

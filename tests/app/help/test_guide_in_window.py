@@ -23,6 +23,5 @@ def test_a_change_of_method_is_seen_in_the_finished_picture(
         session, buffer = window.session, window.page.grid.buffer()
         assert window.page.current_view() == "pixels"
         assert session.cursor.position == session.stage_trace.steps.count
-        assert buffer is not None
         pictures.append(buffer.values.copy())
     assert (pictures[0] != pictures[1]).any()

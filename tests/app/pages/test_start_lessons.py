@@ -41,7 +41,6 @@ def shown(window: MainWindow, qtbot: QtBot) -> StartPage:
     window.pages.show_page("step")
     window.pages.show_page("start")
     page = window.pages.current
-    assert isinstance(page, StartPage)
     qtbot.waitUntil(lambda: not page.is_drawing)
     return page
 

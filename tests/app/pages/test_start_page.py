@@ -22,7 +22,6 @@ pytestmark = pytest.mark.shared_window
 def page(window: MainWindow, qtbot: QtBot) -> StartPage:
     QTest.keyClick(window, Qt.Key.Key_0, Qt.KeyboardModifier.AltModifier)
     shown = window.pages.current
-    assert isinstance(shown, StartPage)
     qtbot.waitUntil(lambda: not shown.is_drawing)
     return shown
 
@@ -217,7 +216,6 @@ def test_the_left_column_is_not_cut_while_presenting(window: MainWindow, page: S
 def test_reading_and_drawing_wait_until_the_page_is_painted(window: MainWindow, qtbot: QtBot) -> None:
     window.pages.show_page("start")
     page = window.pages.current
-    assert isinstance(page, StartPage)
     assert page.is_drawing
     assert not page.lessons.job.is_running
     qtbot.waitUntil(lambda: page.lessons.place is not None and not page.is_drawing, timeout=20000)

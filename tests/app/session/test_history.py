@@ -5,7 +5,6 @@ from dataclasses import replace
 import pytest
 
 from app.session.history import BYTES_LIMIT, LIMIT, History, held_arrays
-from core.scene import Scene
 from lessons.scenes import make_scene
 
 
@@ -88,7 +87,6 @@ def undone(history: History[str]) -> list[str]:
 
 def test_the_arrays_of_a_record_count_once() -> None:
     scene = make_scene("sphere")
-    assert isinstance(scene, Scene)
     (mesh,) = scene.meshes
     moved = replace(scene, meshes=(replace(mesh, positions=mesh.positions + 1.0),))
     one, both = held_arrays(scene), held_arrays((scene, moved))

@@ -106,7 +106,6 @@ def test_nothing_left_is_drawn_as_nothing(qapp):
 def test_a_piece_of_a_tree_is_drawn_where_the_step_is_about_it(qapp: object) -> None:
     trace = session_of(make_scene("circle-of-bars"), Settings(visibility="bsp")).trace
     pieces, stage = trace.source.geometry.kept_pieces, trace.stage("clip")
-    assert pieces is not None
     for row in range(stage.steps.row_count):
         state = clip_state(trace, int(stage.triangle[row]), stage.steps.position_after(row))
         assert np.array_equal(state.before, pieces.clip[stage.columns["kept"][row]])

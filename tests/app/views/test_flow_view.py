@@ -82,7 +82,6 @@ def test_a_click_steps_the_stage_and_predicting_hides_the_numbers(qtbot: QtBot) 
 
 def test_the_four_stages_stand_side_by_side_in_the_type_of_a_presenter(qtbot: QtBot) -> None:
     application = QApplication.instance()
-    assert isinstance(application, QApplication)
     apply_theme(application, for_screen(PRESENTER, 720))
     try:
         _, phases, views = shown(qtbot, "cube")

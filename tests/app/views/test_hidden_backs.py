@@ -19,7 +19,6 @@ from widgets.space.orbit import fitted
 
 def scene_with(mesh) -> Scene:
     made = make_scene("torus")
-    assert isinstance(made, Scene)
     return replace(made, meshes=(mesh,))
 
 

@@ -96,7 +96,6 @@ def test_a_click_picks_what_the_core_sees_there(show, qtbot, scene):
     _session, views, widget = show("scene", scene)
     presenter = views.scene_presenter
     size, space = widget.picture_size(), presenter.space
-    assert space is not None
     viewed, pieces = viewed_scene(
         space, space.scene, viewing_camera(space, widget.orbit()), size, np.zeros(4)
     )

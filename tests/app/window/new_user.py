@@ -21,7 +21,6 @@ from pytestqt.qtbot import QtBot
 
 from app.session.document import Document
 from app.window.main_window import MainWindow
-from core import ClipScene
 
 Kind = TypeVar("Kind", bound=QWidget)
 LEFT = Qt.MouseButton.LeftButton
@@ -139,7 +138,6 @@ class NewUser:
         grid, geometry = self.page.grid, self.page.grids.geometry
         vertex = int(geometry.triangles[geometry.focus][0])
         start = grid.placement().to_widget(*geometry.vertices[vertex])
-        assert start is not None
         QTest.mousePress(grid, LEFT, pos=start.toPoint())
         for share in (0.5, 1.0):
             QTest.mouseMove(grid, start.toPoint() + by * share)
@@ -165,7 +163,6 @@ class NewUser:
     def corner(self) -> list[float]:
         """Return x and y of the first corner in clip space."""
         scene = self.session.document.scene
-        assert isinstance(scene, ClipScene)
         return np.asarray(scene.clip).reshape(-1)[:2].tolist()
 
     def at(self) -> tuple[str, int]:
@@ -187,7 +184,6 @@ class NewUser:
     def covered(self) -> int:
         """Return how many pixels the grid shows as covered."""
         buffer = self.page.grid.buffer()
-        assert buffer is not None
         return int(np.count_nonzero(buffer.values))
 
     def help_text(self) -> str:

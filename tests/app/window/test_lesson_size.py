@@ -32,7 +32,6 @@ def test_the_buttons_of_a_lesson_stay_in_sight(window: MainWindow) -> None:
 
     def look(step: str) -> None:
         walk = window.page.lessons.walk
-        assert walk is not None
         stops = map(QAccessible.queryAccessibleInterface, tab_stops([walk.view]))
         nameless.extend(step for stop in stops if not stop.text(QAccessible.Text.Name))
         sentence = window.page.sentence

@@ -16,7 +16,6 @@ from app.files.user_folders import preferences_folder
 from app.session.document import Document, open_document
 from app.window.main_window import MainWindow
 from app.window.start import reopen
-from core.scene import Scene
 from lessons.scenes import built_in_scene
 from tests.app.files.mesh_writing import SQUARE
 
@@ -50,7 +49,6 @@ def states():
 
 def with_moved_vertex(document: Document) -> Document:
     """Return the document with one vertex of its mesh moved."""
-    assert isinstance(document.scene, Scene)
     (mesh,) = document.scene.meshes
     positions = mesh.positions.copy()
     positions[0] += 0.0625
@@ -74,7 +72,6 @@ def test_a_bookmark_is_saved_even_where_nothing_else_was_done(window: MainWindow
     qtbot.waitUntil(lambda: any(path.title for path in states()), timeout=20000)
     (path,) = (each.path for each in states())
     state = open_any(str(path)).state
-    assert state is not None
     assert [mark.note for mark in state.bookmarks] == ["why"]
 
 
@@ -88,8 +85,6 @@ def test_a_mesh_that_did_not_change_is_not_written_again(autosaved: MainWindow, 
     second = saved(autosaved, qtbot)
     assert (array.stat().st_ino, array.stat().st_mtime_ns) == (before.st_ino, before.st_mtime_ns)
     for document in (first, second):
-        assert isinstance(document.scene, Scene)
-        assert isinstance(autosaved.session.document.scene, Scene)
         mesh = autosaved.session.document.scene.meshes[0]
         np.testing.assert_array_equal(document.scene.meshes[0].positions, mesh.positions)
     autosaved.session.edit(with_moved_vertex(autosaved.session.document))
@@ -99,7 +94,6 @@ def test_a_mesh_that_did_not_change_is_not_written_again(autosaved: MainWindow, 
     array.write_bytes(array.read_bytes()[:-1] + b"?")
     autosaved.close()
     first_shown = reopen()
-    assert first_shown.message is not None
     assert f"{array.name} is damaged" in first_shown.message.text
 
 
@@ -137,7 +131,6 @@ def test_a_mesh_that_is_gone_for_one_start_is_shown_again_by_the_next(
     autosaved.close()
     mesh.parent.rename(away)
     first = reopen()
-    assert first.message is not None
     assert "its mesh file is missing or broken" in first.message.text
     assert (first.file, first.opened.document.title) == (None, "Single triangle")
     stand_in = MainWindow(first.opened.document, autosaved.memory.preferences)
@@ -149,7 +142,6 @@ def test_a_mesh_that_is_gone_for_one_start_is_shown_again_by_the_next(
     again = reopen()
     assert (again.message, again.opened.document.path) == (None, str(mesh))
     assert stand_in.memory.preferences.recent_files == [str(mesh)]
-    assert again.file is not None
     again.file.release()
 
 

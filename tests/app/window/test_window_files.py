@@ -127,12 +127,10 @@ def test_a_texture_outside_is_read_once_the_user_allows_it(
     qtbot.waitUntil(window.messages.action_button.isVisible, timeout=20000)
     assert window.messages.text.text().startswith("Texture ../skin.png of material a is outside the folder")
     scene = window.session.document.scene
-    assert isinstance(scene, Scene)
     assert scene.meshes[0].texture is None
     window.messages.action_button.click()
     qtbot.waitUntil(lambda: not window.files.job.is_running, timeout=20000)
     scene = window.session.document.scene
-    assert isinstance(scene, Scene)
     assert scene.meshes[0].texture is not None
     assert not window.messages.action_button.isVisible()
 

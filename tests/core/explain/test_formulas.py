@@ -67,9 +67,7 @@ def only(stage: str, key: str, settings: Settings, place: int = 0, name: str = "
     """Return one formula of a rare triangle."""
     traced = rare_trace(name, settings).stage(stage)
     found = [e for e in map(traced.explain, range(1, traced.steps.count + 1)) if e and e.key == key]
-    made = formula(found[place])
-    assert made is not None
-    return made
+    return formula(found[place])
 
 
 def test_a_step_without_formula_gives_none() -> None:

@@ -34,7 +34,6 @@ def test_a_value_along_an_edge_is_that_of_its_ends() -> None:
     explanation = traced.explain(traced.steps.position_after(row))
     assert explanation is not None
     made = formula(explanation)
-    assert made is not None
     assert re.fullmatch(r". = \(1 − s\) · (.)_0 \+ s · \1_1", plain_text(made.symbolic)), made.symbolic
     assert re.findall(r"\\vertex\{(\d)\}", made.symbolic) == ["2", "0"]
 

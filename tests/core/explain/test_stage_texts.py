@@ -79,7 +79,6 @@ def test_edges_begin_with_no_word_on_snapping_which_only_some_number_formats_do(
     assert initial_sentence("edges") == "No edge function has been set up yet."
     for coverage in ("float64", "exact", "inverse"):
         step = trace(make_scene("single-triangle"), Settings(coverage=coverage)).stage("edges").explain(1)
-        assert step is not None
         assert step.listing is None or "snap" not in step.listing.source
 
 

@@ -32,7 +32,6 @@ def assert_same(
     with_depth = draw_picture(scene, by_spans, encoding="linear", region=region, with_depth=True)
     assert np.array_equal(numbers(picture.pixels), frame.primitive[part]), picture.route
     assert np.array_equal(numbers(with_depth.pixels), frame.primitive[part]), with_depth.route
-    assert with_depth.depth is not None
     assert np.array_equal(with_depth.depth, frame.depth[part])
     assert with_depth.depth.dtype == frame.depth.dtype
     return frame

@@ -90,7 +90,6 @@ def test_of_triangles_at_one_depth_the_first_is_seen_whatever_colours_it_allows(
 @pytest.mark.parametrize("encoding", ["srgb", "linear"])
 def test_a_steep_triangle_does_not_change_the_bytes_of_others(encoding: str) -> None:
     both = smooth_below_and_steep_above()
-    assert both.attributes is not None
     smooth = ClipScene(both.clip[:1], both.attributes[:1], both.size)
     pictures = [draw_picture(scene, SPANS, encoding=encoding) for scene in (both, smooth)]
     assert [picture.route.color for picture in pictures] == ["corners", "corners"]
@@ -100,7 +99,6 @@ def test_a_steep_triangle_does_not_change_the_bytes_of_others(encoding: str) -> 
 
 def test_a_triangle_without_area_is_one_that_does_not_allow_bytes() -> None:
     both = smooth_below_and_steep_above()
-    assert both.attributes is not None
     clip = both.clip.copy()
     clip[1] = clip[1, :1]
     scene = ClipScene(clip, both.attributes, both.size)
@@ -186,7 +184,6 @@ def test_small_triangles_of_any_colours_and_depths_are_within_a_byte(
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_colours_of_fewer_than_four_numbers_are_opaque_and_what_is_missing_is_black(count: int) -> None:
     scene, chosen = far_apart(7, (160, 120), "perspective")
-    assert scene.attributes is not None
     scene = replace(scene, attributes=scene.attributes[..., :count])
     for encoding in ("srgb", "linear"):
         picture = draw_picture(scene, chosen, encoding=encoding)
@@ -195,7 +192,6 @@ def test_colours_of_fewer_than_four_numbers_are_opaque_and_what_is_missing_is_bl
 
 def test_where_no_triangle_allows_bytes_all_have_attributes_and_light() -> None:
     both = smooth_below_and_steep_above()
-    assert both.attributes is not None
     scene = ClipScene(both.clip[1:], both.attributes[1:], both.size)
     for encoding in ("srgb", "linear"):
         picture = draw_picture(scene, SPANS, encoding=encoding)
@@ -211,7 +207,6 @@ def test_a_part_that_only_shows_what_reaches_behind_the_eye_allows_what_the_whol
 
 def test_a_see_through_triangle_leaves_others_their_bytes() -> None:
     both = smooth_below_and_steep_above()
-    assert both.attributes is not None
     see_through = both.attributes.copy()
     see_through[1, 2, 3] = 0.5
     scene = ClipScene(both.clip, see_through, both.size)

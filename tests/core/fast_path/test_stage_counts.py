@@ -45,7 +45,6 @@ def test_what_comes_out_of_a_stage_goes_into_the_next(settings: Settings) -> Non
 def test_the_pixels_of_a_blended_picture_are_counted_once() -> None:
     route = draw_picture(make_scene("intersecting"), SETTINGS["blended"]).route
     seen = render(make_scene("intersecting"), SETTINGS["blended"]).primitive >= 0
-    assert route.split is not None
     assert route.visible == seen.sum() < route.split.fragments
     assert route.depth_complexity > 1
 

@@ -36,7 +36,6 @@ def test_the_last_colour_is_that_of_the_picture(seed: int, settings: Settings) -
     for row in range(5):
         for column in range(6):
             found = pixel_pieces(source, column, row)
-            assert found is not None
             shown = found.events[-1].after if found.events else found.background_color
             assert (shown == color[row, column]).all()
             assert found.background + sum(event.seen for event in found.events) == pytest.approx(1)
@@ -56,7 +55,6 @@ def test_one_triangle_has_the_area_that_it_covers() -> None:
     behind = [[-1, -1, 0.5, 1], [3, -1, 0.5, 1], [-1, 3, 0.5, 1]]
     scene = ClipScene([half, left, behind], size=(2, 2))
     found = pixel_pieces(TraceSource(scene, AREA), 0, 0)
-    assert found is not None
     first, second, last = found.events
     assert first.area + second.area == pytest.approx(0.5)
     assert (last.area, last.passed, last.seen) == pytest.approx((1.0, 0.5, 0.5))

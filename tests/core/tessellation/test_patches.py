@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core import Scene, Settings, render
+from core import Settings, render
 from core.records.curves import checked_patches
 from core.stages.before_matrices import before_matrices, tessellated
 from core.tessellation.bezier import levels, shares
@@ -60,7 +60,6 @@ def test_the_poles_of_the_teapot_have_normals_along_the_axis():
 
 def test_the_setting_cuts_the_teapot_anew_and_the_same_meshes_serve_another_camera():
     scene = make_scene("teapot")
-    assert isinstance(scene, Scene)
     for segments, triangles in ((6, 2256), (3, 552), (12, 9120)):
         made = before_matrices(scene, Settings(segments=segments))
         assert len(made.meshes[0].triangles) == triangles

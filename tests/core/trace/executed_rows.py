@@ -46,7 +46,6 @@ def _lines_joined(code: CodeType) -> int:
         return 0
     source = inspect.getsource(code)
     (function,) = ast.parse(dedent(source)).body
-    assert isinstance(function, ast.FunctionDef)
     return function.body[ast.get_docstring(function) is not None].lineno - 2
 
 

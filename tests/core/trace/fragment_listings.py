@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from core import Scene
 from core.edits.fragments import GIVEN
 from core.edits.typed import parameters_of
 from core.interpolation.barycentric import NO_AREA
@@ -151,7 +150,6 @@ def check_mipmaps(traced: Trace, found: StageTrace, row: int) -> tuple[float, ..
 
 def check_light(traced: Trace, found: StageTrace) -> None:
     source, scene = traced.source, traced.source.scene
-    assert isinstance(scene, Scene)
     values, layout = source.interpolated[1], source.geometry.primitives.layout
     for row in range(0, found.steps.row_count, max(found.steps.row_count // 40, 1)):
         position = values[row : row + 1, layout["position"]]

@@ -306,7 +306,6 @@ def test_every_step_names_a_line_of_the_listing_and_numbers_that_there_are(line)
     seen = set()
     for position in range(1, found.steps.count + 1):
         explanation = found.explain(position)
-        assert explanation is not None
         assert explanation.listing is not None
         assert explanation.line > 0, explanation.key
         assert set(explanation.changed) <= set(explanation.values)

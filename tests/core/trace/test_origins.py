@@ -59,10 +59,8 @@ def test_a_byte_is_followed_to_a_vertex() -> None:
     at = origin(run, "resolve", int(run.stage("resolve").steps.starts[rows[0] + 1]), "linear")
     way = []
     for variable in ("source", "vertex_color"):
-        assert at is not None
         way.append(at.stage)
         at = origin(run, at.stage, at.position, variable)
-    assert at is not None
     way.append(at.stage)
     at = origin(run, at.stage, at.position, "corner_w", 0)
     while at is not None:
@@ -77,7 +75,6 @@ def test_what_was_given_and_what_this_step_made_come_from_nowhere() -> None:
     assert origin(run, "edges", 0, "a") is None
     assert origin(run, "edges", int(raster.steps.starts[4]) + 1, "a") is None
     later = origin(run, "edges", int(raster.steps.starts[4]) + 3, "a")
-    assert later is not None
     assert (later.stage, later.position) == ("edges", int(raster.steps.starts[4]) + 1)
     assert origin(run, "transform", 1, "before_x") is None
     assert origin(run, "transform", 1, "no such variable") is None

@@ -71,7 +71,6 @@ def check_explanations(found: StageTrace) -> None:
         kind = found.kind_of(row)
         for place, operation in enumerate(found.steps.operations[kind]):
             explained = found.explain(int(found.steps.starts[row]) + place + 1)
-            assert explained is not None
             assert explained.key == f"{found.stage}.{kind}.{operation.name}"
             assert set(explained.known) <= set(explained.values), explained.key
             assert set(explained.changed) <= set(explained.known), explained.key

@@ -39,9 +39,7 @@ def assert_alike(scene, settings: Settings = LINES, region=None) -> None:
 
 def scan_lines(scene, settings: Settings = LINES, **chosen) -> ScanLines:
     """Return what the method decides of a scene."""
-    found = trace(scene, settings, **chosen).source.exact_tests
-    assert isinstance(found, ScanLines)
-    return found
+    return trace(scene, settings, **chosen).source.exact_tests
 
 
 def crowd(count: int, size: tuple[int, int], seed: int = 0) -> np.ndarray:
@@ -308,7 +306,6 @@ def test_the_active_list_has_the_spans_of_its_row_and_what_is_known_at_both_ends
     halved = np.flatnonzero(found.steps.kind == found.steps.kinds.index("scan-halve"))
     for row in halved[::9].tolist():
         table = step_table(found, found.steps.position_after(row))
-        assert table is not None
         of_row = (found.columns["row"] == found.columns["row"][row]) & (
             found.steps.kind == found.steps.kinds.index("scan-span")
         )

@@ -57,12 +57,10 @@ def test_steps_are_open_seen_or_done_until_a_lesson_begins_anew(course: Course) 
         assert (standings(attempts, one), place_in(attempts, one)) == (wanted, goes_on)
     assert standings(attempts, two) == (OPEN,) * 4
     place = next_place(attempts, course)
-    assert place is not None
     assert (place.lesson, place.step) == (two, 0)
     attempts.append(begin_anew("me", one, NOW))
     assert standings(attempts, one) == (OPEN,) * 4
     anew = next_place(attempts, course)
-    assert anew is not None
     assert (anew.lesson, anew.step) == (one, 0)
 
 
@@ -77,7 +75,6 @@ def test_a_lesson_is_finished_when_no_step_is_open(course: Course) -> None:
 def test_who_is_new_begins_at_the_first_and_who_has_all_is_finished(course: Course) -> None:
     one, two = course.lessons.values()
     first = next_place([], course)
-    assert first is not None
     assert (first.lesson, first.step) == (one, 0)
     done = [tried(lesson, step, 1, step) for lesson in (two, one) for step in (1, 2, 3)]
     assert next_place(done[:3], course) is not None
@@ -88,7 +85,6 @@ def test_who_is_new_begins_at_the_first_and_who_has_all_is_finished(course: Cour
 def test_after_a_lesson_comes_the_first_that_is_not_finished(course: Course) -> None:
     one, two = course.lessons.values()
     place = next_place([tried(two, step, 1, step) for step in (1, 2, 3)], course)
-    assert place is not None
     assert (place.lesson, place.step) == (one, 0)
 
 
@@ -121,17 +117,14 @@ def test_a_mistake_of_a_lesson_is_asked_in_practice_and_its_step_never(course: C
     one = course.named("one")
     attempts = [tried(one, 1, 0, -3, ("all-edges-inclusive",)), tried(one, 2, 1, -2)]
     choice = next_question(attempts, TEMPLATES, "me", NOW)
-    assert choice is not None
     assert choice.reason == "In a lesson an answer came from this mistake: all edges inclusive."
     assert "all-edges-inclusive" in choice.question.draft.mistakes
     question = choice.question
     right = question.draft.answer.reference
     answered = attempt_of("me", question, right, judge(question, right), 20, NOW)
     later = next_question([*attempts, answered], TEMPLATES, "me", NOW)
-    assert later is not None
     assert later.reason == "This one is new."
     without = next_question([tried(one, 1, 0, -3)], TEMPLATES, "me", NOW)
-    assert without is not None
     assert without.question.template.name == next(iter(TEMPLATES))
 
 

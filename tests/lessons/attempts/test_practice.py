@@ -28,9 +28,7 @@ def answered(question: Question, mistakes: Sequence[str] | None, ago: timedelta)
 
 
 def chosen(attempts: Sequence[Attempt], templates=SOME, now: datetime = NOW, user: str = "me") -> Choice:
-    choice = next_question(attempts, templates, user, now)
-    assert choice is not None
-    return choice
+    return next_question(attempts, templates, user, now)
 
 
 def test_new_ones_come_in_order_and_the_same_for_the_same_user() -> None:

@@ -157,9 +157,7 @@ def test_states_join_settings_and_replace_the_rest(tmp_path: Path) -> None:
     assert (second.stage, second.buffer, second.pixel) == ("raster", "", None)
     assert second.scene is third.scene, "two steps on one scene share it"
     reveal = states.of_reveal(1)
-    assert reveal is not None
     assert reveal.scene is second.scene
     assert (second.position(second.run), reveal.position(reveal.run) > 0) == (0, True)
     refuting = states.of_wrong(1, 0)
-    assert refuting is not None
     assert refuting.place.at == "tie"

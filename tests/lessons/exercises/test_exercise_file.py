@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from core.scene import ClipScene
 from lessons.exercises.drafting import DrawnScene
 from lessons.exercises.exercise_file import read_exercise
 from lessons.exercises.numbers import number_text
@@ -307,10 +306,8 @@ def test_corners_have_depth_w_values_and_alpha_and_the_scene_a_background(tmp_pa
     for seed in range(24):
         draft = ask(template, seed).draft
         scene = draft.scene
-        assert isinstance(scene, ClipScene)
         assert scene.clip[0, :, 3].tolist() in ([1, 2, 1], [1, 4, 1])
         assert (scene.clip[0, :, 2] / scene.clip[0, :, 3]).tolist() == [-0.5, -0.5, 0]
-        assert scene.attributes is not None
         assert scene.attributes[0, :, 1:].tolist() == [[1, 0, 1], [1, 0, 0.5], [1, 0, 1]]
         assert scene.background.tolist() == [0, 0, 1, 1]
         w, red = int(scene.clip[0, 1, 3]), Fraction(scene.attributes[0, 1, 0])

@@ -13,7 +13,6 @@ from widgets.basics.theme import LIGHT, PRESENTER, Theme
 @pytest.mark.parametrize("count", [3, MOST_SEEN, MOST_SEEN + 5])
 def test_no_choice_is_cut_off(qtbot: QtBot, theme: Theme, count: int) -> None:
     application = QApplication.instance()
-    assert isinstance(application, QApplication)
     apply_theme(application, theme)
     box = ChoiceBox()
     qtbot.addWidget(box)

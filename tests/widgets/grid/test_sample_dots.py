@@ -23,7 +23,6 @@ PLACES = np.array([[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875
 def samples_of(grid: PixelGrid, *marks: tuple[int, int, int, int]) -> SampleDots:
     """Return four samples in every pixel; ``marks``: sample, column, row and triangle."""
     buffer = grid.buffer()
-    assert buffer is not None
     shown = np.full((4, buffer.rows, buffer.columns), -1)
     for sample, column, row, triangle in marks:
         shown[sample, row, column] = triangle

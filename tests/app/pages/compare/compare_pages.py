@@ -19,7 +19,6 @@ def compare_page(window: MainWindow) -> ComparePage:
     """Return the page at the quickest work there is: three triangles that overlap in a cycle."""
     window.pages.show_page("compare")
     found = window.pages.current
-    assert isinstance(found, ComparePage)
     found.show_named("visibility")
     found.choice.work = "cycle"
     found.choice.rounds = 2
@@ -33,7 +32,6 @@ def measured(page: ComparePage, qtbot: QtBot) -> Study:
     assert page.is_running
     qtbot.waitUntil(lambda: not page.is_running, timeout=60000)
     result = page.choice.result
-    assert result is not None
     points = tuple(
         replace(point, seconds=0.001 * 2.0**number * np.ones_like(point.seconds))
         for number, point in enumerate(result.content.points)
@@ -48,7 +46,6 @@ def click(
     page: ComparePage, method: str, modifier: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier
 ) -> None:
     place = page.scatter.place_of(method)
-    assert place is not None
     QTest.mouseClick(page.scatter.viewport(), Qt.MouseButton.LeftButton, modifier, place.toPoint())
 
 

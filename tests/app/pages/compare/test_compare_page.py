@@ -39,7 +39,6 @@ def test_an_empty_page_says_what_to_do(page: ComparePage) -> None:
     assert "All methods of this family do the same work" in page.readout.text()
     QTest.mouseClick(page.export_button, Qt.MouseButton.LeftButton)
     window = page.window()
-    assert isinstance(window, MainWindow)
     assert "measure first" in window.statusBar().currentMessage()
 
 
@@ -50,10 +49,8 @@ def test_measuring_shows_every_method_and_the_front(page: ComparePage, qtbot: Qt
     assert [point.method for point in study.points] == [key for key, _ in page.scatter.places()]
     assert drawn[0] == 1, "points appear as they are measured"
     picture = page.scatter.picture
-    assert picture is not None
     for series, point in zip(picture.series, study.points, strict=True):
         assert (series.x[0], series.y[0]) == (point.median, point.errors[WRONG])
-        assert series.x_spread is not None
         assert tuple(series.x_spread[0]) == (point.least, point.interval[1])
     exact = [point for point in study.points if point.errors[WRONG] == 0]
     assert min(exact, key=lambda point: point.median).method in picture.front
@@ -73,14 +70,12 @@ def test_a_family_that_has_a_result_can_be_shown_while_another_is_measured(
     assert [key for key, _ in page.scatter.places()] == ["line=bresenham", "line=dda"]
     page.show_named("visibility")
     study = page.content
-    assert study is not None
     assert [key for key, _ in page.scatter.places()] == [point.method for point in study.points]
 
 
 def test_cancelling_leaves_what_was_measured_before(page: ComparePage, qtbot: QtBot) -> None:
     before = measured(page, qtbot)
     picture = page.scatter.picture
-    assert picture is not None
     page.choice.rounds = 90
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
     assert page.scatter.places() == [], "what is being measured anew is not shown with old numbers"
@@ -88,7 +83,6 @@ def test_cancelling_leaves_what_was_measured_before(page: ComparePage, qtbot: Qt
     assert not page.is_running
     assert page.content is before
     again = page.scatter.picture
-    assert again is not None
     assert [series.x.tolist() for series in again.series] == [series.x.tolist() for series in picture.series]
     qtbot.wait(100)
     assert page.content is before, "no late point of the cancelled measurement comes in"
@@ -115,7 +109,6 @@ def test_a_failed_measurement_leaves_earlier_results(page: ComparePage, qtbot: Q
     before = measured(page, qtbot)
     page.begin(partial(measured_on, partial(measure, "visibility", "cycle", {"length": 3.0}), None), "")
     window = page.window()
-    assert isinstance(window, MainWindow)
     qtbot.waitUntil(lambda: window.messages.isVisible(), timeout=60000)
     assert "dial of cycle must be one of none" in window.messages.text.text()
     assert page.content is before
@@ -136,7 +129,6 @@ def test_hover_reads_the_figures_and_is_linked(page: ComparePage) -> None:
     page.take_saved(hand_made(), "lines.json")
     QApplication.processEvents()
     place = page.scatter.place_of("line=dda")
-    assert place is not None
     QTest.mouseMove(page.scatter.viewport(), place.toPoint())
     assert page.growth.pointed == "line=dda"
     text = page.readout.text()
@@ -182,8 +174,6 @@ def test_a_count_takes_the_place_of_time_in_both_charts(page: ComparePage) -> No
     QTest.keyClick(page.window(), Qt.Key.Key_X)
     assert page.controls.cost_box.currentText() == "Pixels drawn"
     scatter, growth = page.scatter.picture, page.growth.picture
-    assert scatter is not None
-    assert growth is not None
     assert [series.x[0] for series in scatter.series] == [40, 41]
     assert scatter.series[0].x_spread is None
     assert scatter.front == ("line=bresenham",)
@@ -201,7 +191,6 @@ def test_the_whole_pipeline_is_measured_on_the_open_scene(
     page.start()
     qtbot.waitUntil(lambda: len(page.scatter.places()) > 2, timeout=60000)
     study = page.content
-    assert study is not None
     assert study.scene == "Two triangles sharing an edge"
     assert study.settings == window.session.document.settings
     page.cancel()
@@ -252,7 +241,6 @@ def test_a_crowded_chart_has_a_list_of_its_marks(page: ComparePage) -> None:
     assert page.legend.item(3).text() == "A: Method 3"
     QApplication.processEvents()
     place = page.scatter.place_of("line=m1")
-    assert place is not None
     QTest.mouseMove(page.scatter.viewport(), place.toPoint())
     assert page.legend.currentItem().text().startswith("Method ")
 

@@ -91,7 +91,6 @@ def test_two_points_are_locked_and_stepped_to_where_they_part(
     assert window.session.document.settings.visibility == "z-buffer"
     assert window.page.comparing.other.visibility == "last-drawn"
     pin = window.session.pin
-    assert pin is not None
     assert difference.values[pin[1], pin[0]] != 0
     assert window.session.cursor.stage == "depth"
 

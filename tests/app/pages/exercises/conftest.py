@@ -16,7 +16,6 @@ def page(window: MainWindow) -> Page:
     def show(name: str, seed: int = 7) -> ExercisesPage:
         window.run_action("page_exercises")
         shown = window.pages.current
-        assert isinstance(shown, ExercisesPage)
         shown.settle()
         shown.questions.open(TEMPLATES[name], seed)
         shown.settle()

@@ -88,7 +88,6 @@ class Student(QObject):
 
     def _answer(self) -> None:
         question = self.page.question
-        assert question is not None
         draft = question.draft
         answers = [draft.answer.reference, *draft.mistakes.values()]
         guess = draft.answer.random(Draws(self.random.randrange(100)))
@@ -104,7 +103,6 @@ class Student(QObject):
     def _take(self, attempt: Attempt) -> None:
         """Compare the attempt with the question and the verdict that are shown with it."""
         page, question = self.page, self.page.question
-        assert question is not None
         template = question.template
         assert (attempt.template, attempt.version, attempt.seed) == (
             template.name,
@@ -124,9 +122,7 @@ class Student(QObject):
     def look(self) -> None:
         """Compare what is shown: the question, its form and the verdict."""
         page, question, view = self.page, self.page.question, self.page.question_view
-        assert question is not None
         assert view.mark.text() == question.mark
-        assert view.answer is not None
         verdict = (
             "" if view.verdict.isHidden() or view.verdict.parentWidget().isHidden() else view.verdict.text()
         )
@@ -173,7 +169,6 @@ def test_another_question_waits_for_the_verdict_and_ends_the_one_before(page: Ex
         page.open_line(line_of("triangle-coverage", 8))
         page.settle()
         question = page.question
-        assert question is not None
         page.questions.answer(next(iter(question.draft.mistakes.values())))
         before = len(student.kept)
         way()
@@ -198,7 +193,6 @@ def test_a_verdict_is_that_of_the_answer_that_was_checked(page: ExercisesPage) -
     page.open_line(line_of("facing", 3))
     page.settle()
     question, view = page.question, page.question_view
-    assert question is not None
     page.questions.answer(question.draft.answer.reference)
     QTest.mouseClick(view.check_button, LEFT)
     page.questions.answer(frozenset())

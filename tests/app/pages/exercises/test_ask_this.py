@@ -25,7 +25,6 @@ COLUMNS = count(24)
 
 def exercises(window: MainWindow) -> ExercisesPage:
     page = window.pages.current
-    assert isinstance(page, ExercisesPage)
     page.settle()
     return page
 
@@ -45,7 +44,6 @@ def test_a_step_is_asked_hidden_and_shown_after_the_check(window: MainWindow) ->
     session.go_to(position)
     window.run_action("ask_step")
     page = exercises(window)
-    assert page.question is not None
     assert page.question.mark == "ask/shared-edge/64x48/fill=bounding-box/raster/step=5 1, seed 0"
     assert session.is_predicting
     window.run_action("page_step")

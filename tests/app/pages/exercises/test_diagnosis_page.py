@@ -37,7 +37,6 @@ def small(window: MainWindow) -> MainWindow:
 def dropped(window: MainWindow, path: Path) -> ExercisesPage:
     window.open_path(str(path))
     page = window.pages.current
-    assert isinstance(page, ExercisesPage)
     page.settle()
     return page
 

@@ -14,7 +14,6 @@ from lessons.exercises.question import Question, ask, judge
 def compare(question: Question, mistake: str) -> None:
     """Trace both runs, and search for where they differ."""
     request = faulty_run(question, mistake)
-    assert request is not None
     assert request.other is not None
     assert request.other_scene is not None
     opened = replace(question.draft, scene=request.opening.scene, settings=request.opening.settings)

@@ -13,7 +13,6 @@ from pytestqt.qtbot import QtBot
 
 from app.pages.compare.charts import title_of
 from app.pages.compare.jobs import chosen_points, plan_candidates
-from app.pages.compare.page import ComparePage
 from app.pages.plan.page import PlanPage
 from app.pages.plan.plans import details, headline, rows_of
 from app.window.main_window import MainWindow
@@ -58,15 +57,12 @@ def looked_page(kept_window: MainWindow, qtbot: QtBot) -> Iterator[PlanPage]:
 
 def plan_page(window: MainWindow) -> PlanPage:
     found = window.pages.current
-    assert isinstance(found, PlanPage)
     found.controls.rounds_box.setValue(1)
     return found
 
 
 def report_of(page: PlanPage) -> PlanReport:
     shown = page.shown
-    assert shown is not None
-    assert shown.report is not None
     return shown.report
 
 
@@ -130,7 +126,6 @@ def test_an_exact_plan_allows_nothing(page: PlanPage, qtbot: QtBot) -> None:
     assert not page.controls.color_box.isEnabled()
     page.controls.start_button.click()
     qtbot.waitUntil(lambda: not page.is_running, timeout=60000)
-    assert page.shown is not None
     assert page.shown.plan.tolerance == Tolerance.exact()
     assert "exact" in page.summary.about.text()
 
@@ -222,7 +217,6 @@ def test_cancelling_leaves_what_was_found_before(page: PlanPage, qtbot: QtBot) -
     assert "Measuring" in page.summary.headline.text()
     QTest.keyClick(page.window(), Qt.Key.Key_Escape)
     assert not page.is_running
-    assert page.shown is not None
     assert page.shown.report is report
     assert page.controls.start_button.isVisible()
     assert page.controls.start_button.hasFocus()
@@ -240,7 +234,6 @@ def test_a_scene_that_is_too_large_is_told(
     QTest.keyClick(window, Qt.Key.Key_F5)
     qtbot.waitUntil(window.messages.isVisible, timeout=60000)
     assert "could not be analysed" in window.messages.text.text()
-    assert page.shown is not None
     assert page.shown.report is report
 
 
@@ -270,7 +263,6 @@ def test_difference_pictures(window: MainWindow, page: PlanPage, qtbot: QtBot) -
     QTest.keyClick(window, Qt.Key.Key_D)
     wait_for_pictures(page, qtbot)
     differs = page.pictures.linked.grids[2].buffer()
-    assert differs is not None
     assert differs.values.max() == report.largest_error > 0
     QTest.keyClick(window, Qt.Key.Key_Escape)
     assert not page.pictures.isVisible()
@@ -301,7 +293,6 @@ def test_a_difference_within_the_tolerance_opens_in_the_stepper(
 def test_the_choice_is_a_ringed_point_of_the_chart(window: MainWindow, page: PlanPage, qtbot: QtBot) -> None:
     report = looked(page, qtbot)
     compare = window.pages.page("compare")
-    assert isinstance(compare, ComparePage)
     compare.show_named("pipeline")
     compare.choice.rounds = 1
     compare.choice.dials["scene", "scale"] = 0.5
@@ -309,8 +300,6 @@ def test_the_choice_is_a_ringed_point_of_the_chart(window: MainWindow, page: Pla
     assert window.pages.current is compare
     qtbot.waitUntil(lambda: not compare.is_running, timeout=120000)
     study, picture = compare.content, compare.scatter.picture
-    assert study is not None
-    assert picture is not None
     (ringed,) = picture.ringed
     assert settings_of(study.settings, ringed) == report.plan.settings
     titles = {series.key: series.title for series in picture.series}
@@ -318,7 +307,6 @@ def test_the_choice_is_a_ringed_point_of_the_chart(window: MainWindow, page: Pla
     assert "Reference settings" in titles.values()
     another_scene(window)
     compare.refresh()
-    assert compare.scatter.picture is not None
     assert compare.scatter.picture.ringed == ()
 
 

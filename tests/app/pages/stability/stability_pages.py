@@ -20,7 +20,6 @@ def stability_page(window: MainWindow) -> StabilityPage:
     """Return the page at a mesh whose edges pass through pixel centres, on a coarse grid."""
     QTest.keyClick(window, Qt.Key.Key_3, Qt.KeyboardModifier.AltModifier)
     found = window.pages.current
-    assert isinstance(found, StabilityPage)
     found.show_named("shared-edges")
     found.choice.resolution = "coarse"
     found.refresh()
@@ -32,7 +31,6 @@ def run(page: StabilityPage, qtbot: QtBot) -> Atlas:
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
     assert page.is_running
     qtbot.waitUntil(lambda: not page.is_running, timeout=60000)
-    assert page.choice.result is not None
     return page.choice.result.content
 
 
@@ -63,5 +61,4 @@ def wait_for_shrunk(page: StabilityPage, qtbot: QtBot) -> Shrunk:
 
 def status(page: StabilityPage) -> str:
     window = page.window()
-    assert isinstance(window, MainWindow)
     return window.statusBar().currentMessage()

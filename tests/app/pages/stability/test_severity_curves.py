@@ -15,7 +15,7 @@ from core.study.stability import Atlas, Axis, ExperimentInfo, Outcome, Stability
 from widgets.basics.theme import LIGHT, paint_as
 from widgets.experiments.chart import Chart
 from widgets.experiments.maps import CellPlace
-from widgets.experiments.series import ChartEmpty, ChartPicture
+from widgets.experiments.series import ChartEmpty
 
 pytestmark = pytest.mark.shared_window
 
@@ -40,9 +40,7 @@ def map_of(method: str, *severity: float) -> StabilityMap:
 @pytest.fixture
 def page(window: MainWindow) -> StabilityPage:
     window.pages.show_page("stability")
-    found = window.pages.current
-    assert isinstance(found, StabilityPage)
-    return found
+    return window.pages.current
 
 
 def test_one_line_for_each_method_and_zero_has_a_place(page: StabilityPage) -> None:
@@ -50,12 +48,9 @@ def test_one_line_for_each_method_and_zero_has_a_place(page: StabilityPage) -> N
     QApplication.processEvents()
     chart, legend = page.curves
     picture = chart.picture
-    assert picture is not None
     assert [series.y.tolist() for series in picture.series] == [[40.0, 3.0, 0.0], [0.0, 0.0, 0.0]]
     assert picture.series[0].x.tolist() == list(AXIS.values)
     zero, three = chart.place_of(WEAK, 2), chart.place_of(WEAK, 1)
-    assert zero is not None
-    assert three is not None
     assert zero.y() > three.y() + 10
     assert [legend.item(row).text() for row in range(legend.count())] == ["float16", "exact"]
 
@@ -65,7 +60,6 @@ def test_a_point_of_a_curve_is_the_cell_of_the_map(page: StabilityPage) -> None:
     QApplication.processEvents()
     chart, legend = page.curves
     place = chart.place_of(WEAK, 1)
-    assert place is not None
     QTest.mouseMove(chart.viewport(), place.toPoint())
     assert "Severity: <b>3</b>" in page.readout.text()
     assert legend.currentRow() == 0
@@ -102,7 +96,6 @@ def test_curves_come_with_the_cells_and_go_with_a_second_axis(page: StabilityPag
     )
     assert counts == sorted(counts)
     picture = page.curves[0].picture
-    assert picture is not None
     assert len(picture.series) == len(page.info.methods)
     assert page.curves[0].isVisible()
     page.show_named("slivers")
@@ -123,12 +116,10 @@ def test_what_has_not_been_run_has_no_line() -> None:
     unknown = map_of(WEAK, *[np.nan] * 3)
     assert severity_chart(AXIS, (unknown, map_of(STRONG, *[np.nan] * 3))) == ChartEmpty(NOTHING_RUN)
     found = severity_chart(AXIS, (unknown, map_of(STRONG, 1.0, np.nan, 0.0)))
-    assert isinstance(found, ChartPicture)
     assert [(series.key, series.number) for series in found.series] == [(STRONG, 1)]
 
 
 def test_a_file_has_the_curves_of_the_page(qapp: QApplication) -> None:
     with paint_as(LIGHT):
         (chart,) = atlas_sheet(hand_made()).findChildren(Chart)
-    assert chart.picture is not None
     assert [series.y.tolist() for series in chart.picture.series] == [[40.0, 3.0, 0.0], [0.0, 0.0, 0.0]]

@@ -55,7 +55,6 @@ def test_a_run_shows_every_cell_as_it_is_run_elsewhere(page: StabilityPage, qtbo
 
     def count_unknown() -> None:
         record = page.maps.canvas.record
-        assert record is not None
         unknown.append(record.count(UNKNOWN))
 
     page.work.part_done.connect(count_unknown)
@@ -63,7 +62,6 @@ def test_a_run_shows_every_cell_as_it_is_run_elsewhere(page: StabilityPage, qtbo
     info = experiments.get("shared-edges").info
     alone = stress("shared-edges", axes=axes_at(info.axes, "coarse"))
     record = page.maps.canvas.record
-    assert record is not None
     for shown, wanted in zip(record.maps, alone.maps, strict=True):
         assert shown.key == wanted.method
         assert shown.cells.tolist() == wanted.outcome.tolist()
@@ -84,11 +82,9 @@ def test_cancelling_leaves_the_maps_of_before(page: StabilityPage, qtbot: QtBot)
     QTest.keyClick(page.window(), Qt.Key.Key_Escape)
     assert not page.is_running
     record = page.maps.canvas.record
-    assert record is not None
     assert [each.cells.tolist() for each in record.maps] == [each.outcome.tolist() for each in before.maps]
     assert page.choice.chosen is None, "the fine grid's cell is not one of the coarse grid"
     qtbot.wait(100)
-    assert page.choice.result is not None
     assert page.choice.result.content is before
 
 
@@ -97,10 +93,8 @@ def test_a_failed_run_leaves_the_maps_of_before(page: StabilityPage, qtbot: QtBo
     wrong = (Axis("height", "Height", "", (1.0,)),)
     page.begin(partial(run_grid, experiments.get("shared-edges"), wrong, 0), "")
     window = page.window()
-    assert isinstance(window, MainWindow)
     qtbot.waitUntil(lambda: window.messages.isVisible(), timeout=60000)
     assert "axes of shared-edges must be steps, cells" in window.messages.text.text()
-    assert page.choice.result is not None
     assert page.choice.result.content is before
 
 
@@ -110,7 +104,6 @@ def test_atlases_are_kept_for_every_experiment(page: StabilityPage, qtbot: QtBot
     assert page.choice.name == "mesh-through-the-eye"
     assert page.maps.canvas.record is None
     page.entries.setCurrentRow(page.entries.currentRow() - 1)
-    assert page.choice.result is not None
     assert page.choice.result.content is atlas
     assert page.maps.canvas.record is not None
 
@@ -160,12 +153,9 @@ def test_a_click_shows_the_case_and_another_opens_it_in_the_stepper(
     click(page, place)
     wait_for_case(page, qtbot)
     found = page.opened.found
-    assert found is not None
     assert found.frame is not None
     cover = page.case.linked.grids[1].buffer()
-    assert cover is not None
     assert int(np.count_nonzero(cover.values == 0)) == found.verdict.severity > 0
-    assert page.case.pin is not None
     assert cover.values[page.case.pin[1], page.case.pin[0]] == 0
     with qtbot.waitSignal(window.opening.opened, timeout=60000):
         QTest.mouseClick(page.case.step_button, LEFT)
@@ -202,8 +192,6 @@ def test_a_picture_that_is_too_large_is_only_opened(
     click(page, CellPlace(worst.method, column, row))
     wait_for_case(page, qtbot)
     found = page.opened.found
-    assert found is not None
-    assert found.opening is not None
     assert found.frame is None
     assert "open it in the stepper" in page.case.verdict.text()
     with qtbot.waitSignal(window.opening.opened, timeout=60000):
@@ -303,7 +291,6 @@ def test_the_precision_dial_of_a_cell_and_of_another_pixel(page: StabilityPage, 
     assert by_format["float16"].is_count_right is False
     assert by_format["float16"].cells[HEAD.index("Bits of the value")].replace(" ", "") == "0" * 16
     pin = page.case.pin
-    assert pin is not None
     sentence = page.case.formats.sentence.text()
     place = f"({pin[0]}, {pin[1]})"
     assert sentence == f"Pixel {place}, triangle 0: expected once, 0 times by coverage=float16 (hole)."
@@ -340,7 +327,6 @@ def test_the_open_scene_is_counted(window: MainWindow, page: StabilityPage, qtbo
     assert {"coverage=exact", "fill_rule=shared-edge", "fill=spans"} <= right
     assert "fill=scanline-lecture" not in right
     window.session.set_setting("fill", "blocks")
-    assert page.choice.result is not None
     assert page.choice.result.content is atlas, "what has been run stays when the scene changes"
 
 

@@ -21,9 +21,7 @@ def settled(window: MainWindow, qtbot: QtBot) -> LessonWalk:
     """Wait until nothing is worked on any more; return the lesson."""
     qtbot.waitUntil(lambda: not window.page.lessons.is_working)
     QApplication.processEvents()
-    walk = window.page.lessons.walk
-    assert walk is not None
-    return walk
+    return window.page.lessons.walk
 
 
 def opened(window: MainWindow, qtbot: QtBot, folder: Path, step: int = 0, text: str = GOOD) -> LessonWalk:
@@ -42,7 +40,6 @@ def opened(window: MainWindow, qtbot: QtBot, folder: Path, step: int = 0, text: 
 def answered(walk: LessonWalk, qtbot: QtBot, given: object) -> str:
     """Type an answer, press Return, and return what is said of it."""
     asked = walk.answers.asked
-    assert asked is not None
     walk.answers.fill(asked.question.draft.answer.read(given))
     QTest.keyClick(walk.view, Qt.Key.Key_Return)
     qtbot.waitUntil(lambda: not walk.is_working)
@@ -51,7 +48,6 @@ def answered(walk: LessonWalk, qtbot: QtBot, given: object) -> str:
 
 def kept(walk: LessonWalk, window: MainWindow, qtbot: QtBot) -> list[Attempt]:
     """Return what is kept of a lesson."""
-    assert walk.lesson is not None
     settled(window, qtbot)
     prefix = f"lesson/{walk.lesson.name}/"
     return [attempt for attempt in attempt_file().attempts() if attempt.template.startswith(prefix)]

@@ -72,7 +72,6 @@ def put_behind(editor: ListingEditor, before: str) -> None:
 def second_raster(window: MainWindow) -> StageTrace:
     wait(lambda: window.page.comparing.second is not None)
     second = window.page.comparing.second
-    assert second is not None
     return second.trace.stage("raster")
 
 
@@ -109,7 +108,6 @@ def test_the_first_difference_is_one_click_away(window: MainWindow) -> None:
     wait(lambda: said)
     assert "is the first that differs" in said[-1]
     mine, other = window.session.moment.pixel, window.page.comparing.second
-    assert other is not None
     assert mine != other.pixel
 
 

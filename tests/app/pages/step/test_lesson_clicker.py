@@ -58,7 +58,6 @@ def test_what_is_typed_in_an_editor_is_not_a_clickers(window: MainWindow, qtbot:
     walk = settled(window, qtbot)
     window.presenter.arrange()
     editor, cursor = walk.view.findChild(ListingEditor), window.session.cursor
-    assert editor is not None
     editor.setFocus()
     qtbot.waitUntil(editor.hasFocus)
     place, before = editor.textCursor().position(), editor.toPlainText()

@@ -14,8 +14,6 @@ from app.window.main_window import MainWindow
 from lessons.scene_edits import scene_digest
 from tests.app.pages.step.lesson_walks import DONE, OPEN, SEEN, answered, kept, opened, settled
 from tests.lessons.course.lesson_texts import GOOD
-from widgets.exercises.choice_answers import ChoiceAnswerView
-from widgets.exercises.picture_answers import PixelAnswerView
 from widgets.grid.layers import MaskOverlay
 
 pytestmark = pytest.mark.shared_window
@@ -98,7 +96,6 @@ def test_next_keeps_its_place_when_marked_pixels_are_right(
     long = "Mark the pixels of triangle 0, and of it alone, as long as a line of this pane is."
     walk = opened(window, qtbot, tmp_path, 2, GOOD.replace("Mark the pixels of triangle 0.", long))
     before = walk.view.next_button.mapTo(window, QPoint())
-    assert walk.answers.asked is not None
     walk.answers.fill(walk.answers.asked.question.draft.answer.reference)
     walk.answers.check()
     settled(window, qtbot)
@@ -131,7 +128,6 @@ def test_a_digit_chooses_an_option_and_goes_to_no_stage(
     text = text.replace('mistakes = ["all-edges-inclusive", "all-edges-exclusive"]', "")
     walk = opened(window, qtbot, tmp_path, 2, text)
     answer = walk.view.answer
-    assert isinstance(answer, ChoiceAnswerView)
     answer.buttons[0].setFocus(Qt.FocusReason.TabFocusReason)
     for key, chosen in (("2", ["all"]), ("9", ["all"]), ("3", ["half"])):
         focused = QApplication.focusWidget()
@@ -150,7 +146,6 @@ def test_a_clicker_goes_back_to_the_end_of_the_lesson_before(window: MainWindow,
     walk = settled(window, qtbot)
     lessons.retreat()
     settled(window, qtbot)
-    assert walk.lesson is not None
     assert (walk.lesson.name, walk.step) == ("pixel-centres", None)
     lessons.open("pixel-centres", 0)
     settled(window, qtbot)
@@ -213,7 +208,6 @@ def test_a_question_asked_again_has_nothing_marked(window: MainWindow, qtbot: Qt
     walk.return_here()
     settled(window, qtbot)
     form = walk.view.answer
-    assert isinstance(form, PixelAnswerView)
     assert form.given() == []
     assert form.count.text().startswith("0 ")
 
@@ -260,11 +254,9 @@ def test_return_on_the_picture_checks_what_is_marked(window: MainWindow, qtbot: 
     window.page.lessons.open("pixel-centres", 2)
     walk = settled(window, qtbot)
     asked = walk.answers.asked
-    assert asked is not None
     walk.answers.fill(asked.question.draft.answer.reference)
     QTest.keyClick(walk.task.grid, Qt.Key.Key_Return)
     settled(window, qtbot)
-    assert walk.answers.last is not None
     assert walk.answers.last.outcome.is_right
 
 

@@ -36,7 +36,6 @@ def test_a_model_fills_the_view_that_it_opens_in(model: MainWindow) -> None:
     assert model.page.current_view() == "scene"
     presenter = model.page.views.scene_presenter
     space = presenter.space
-    assert space is not None
     view = model.page.main_view()
     camera = viewing_camera(space, view.orbit())
     matrix = viewing_matrix(camera, view.picture_size())
@@ -91,8 +90,6 @@ def test_the_navigator_moves_the_region(model: MainWindow, qtbot: QtBot) -> None
     QTest.mouseRelease(navigator, Qt.MouseButton.LeftButton, pos=start)
     qtbot.waitUntil(lambda: model.session.document.raster != before)
     after = model.session.document.raster
-    assert after.origin is not None
-    assert before.origin is not None
     assert after.origin[0] < before.origin[0]
     assert after.origin[1] < before.origin[1]
     assert "F goes back to it" in model.statusBar().currentMessage()
@@ -101,7 +98,6 @@ def test_the_navigator_moves_the_region(model: MainWindow, qtbot: QtBot) -> None
     QTest.keyClick(navigator, Qt.Key.Key_Right)
     qtbot.waitUntil(lambda: model.session.document.raster != after)
     moved = model.session.document.raster.origin
-    assert moved is not None
     assert moved[0] > after.origin[0]
     model.session.undo()
     model.session.undo()
@@ -166,7 +162,6 @@ def test_the_navigator_shows_the_outline_until_the_run_is_done(window: MainWindo
 
     def colors() -> set[int]:
         image = page.navigator._image
-        assert image is not None
         return {image.pixelColor(x, y).rgb() for x in range(image.width()) for y in range(image.height())}
 
     outline = colors()

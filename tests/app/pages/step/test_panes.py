@@ -36,9 +36,7 @@ def part(window: MainWindow, pane: Pane) -> QWidget:
         "run": page.timeline,
     }
     if pane in SIDE_PANES:
-        shown = page.side_panes.widget(SIDE_PANES.index(pane))
-        assert shown is not None
-        return shown
+        return page.side_panes.widget(SIDE_PANES.index(pane))
     return others[pane.name]
 
 

@@ -56,7 +56,6 @@ def test_coverage_is_clicked_and_judged_at_once(asking: MainWindow) -> None:
     page.grid.pixel_clicked.emit(*wrong)
     assert page.prediction.count.text() == "1 of 2 right"
     hidden = page.grid.hidden()
-    assert hidden is not None
     assert not hidden[right[1], right[0]]
     assert hidden.sum() == hidden.size - 2
     page.prediction.reveal_button.click()
@@ -69,7 +68,6 @@ def test_the_next_pixel_is_asked_and_answered(asking: MainWindow) -> None:
     session.step(1)
     trace = session.stage_trace
     asked = question(trace, trace.steps.rows_done(session.cursor.position))
-    assert asked is not None
     assert view.question.text() == asked.text
     view.choice_buttons[int(asked.answer)].click()
     assert view.verdict.text().startswith("Right: ")

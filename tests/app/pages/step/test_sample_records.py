@@ -21,31 +21,25 @@ def test_samples_fill_from_the_first_row_of_the_raster_to_the_last_of_depth(sett
     scene = make_scene("intersecting")
     traced = trace(scene, settings, region=REGION)
     samples = render(scene, settings).samples
-    assert samples is not None
     wanted = samples.primitive[:, 2:11, 3:17]
     for stage, hidden in (("depth", False), ("blend", False), ("resolve", False)):
         of_stage = traced.stage(stage)
         dots = sample_dots(Step(traced, Cursor(stage, of_stage.steps.count), hidden))
-        assert dots is not None
         assert np.array_equal(dots.shown, wanted)
         assert np.array_equal(dots.position, samples.position)
     for stage in ("transform", "edges", "bin", "raster", "depth"):
         start = sample_dots(Step(traced, Cursor(stage)))
-        assert start is not None
         assert (start.shown == -1).all()
     raster = traced.stage("raster")
     counts = []
     for position in range(0, raster.steps.count + 1, max(raster.steps.count // 40, 1)):
         dots = sample_dots(Step(traced, Cursor("raster", position)))
-        assert dots is not None
         counts.append(int((dots.shown >= 0).sum()))
     assert (np.diff(counts) >= 0).all()
     end, shaded = (
         sample_dots(Step(traced, Cursor(name, traced.stage(name).steps.count)))
         for name in ("raster", "shade")
     )
-    assert end is not None
-    assert shaded is not None
     assert np.array_equal(end.shown, shaded.shown)
     assert np.array_equal(end.shown >= 0, wanted >= 0)
 
@@ -59,5 +53,4 @@ def test_one_sample_has_no_dots_and_a_prediction_tells_nothing() -> None:
     dots = sample_dots(
         Step(traced, Cursor("resolve", traced.stage("resolve").steps.count), is_predicting=True)
     )
-    assert dots is not None
     assert (dots.shown == -1).all()

@@ -13,7 +13,6 @@ from app.session.document import focus_on
 from app.views.texture_footprint import texture_pictures
 from app.window.main_window import MainWindow
 from core.explain.steps import variables
-from core.records.listing import ShaderListing
 from core.records.steps import Level
 from core.shaders.presets import TASK_FRAGMENT
 
@@ -60,7 +59,6 @@ def test_what_is_typed_is_drawn_and_stepped(lab, qtbot):
     np.testing.assert_array_equal(lab.session.trace.source.surface.color[:, :3], before[:, 2::-1])
     assert pane.message == "Both shaders run."
     listed = lab.session.stage_trace.listings["statement"]
-    assert isinstance(listed, ShaderListing)
     assert listed.source == changed.rstrip("\n")
     assert lab.page.shader_pane._preset.currentData() == "own"
 

@@ -43,7 +43,6 @@ def events_of_a_step(window: MainWindow, qtbot: QtBot) -> EventCount:
     QApplication.processEvents()
     count = EventCount()
     application = QApplication.instance()
-    assert application is not None
     application.installEventFilter(count)
     QTest.keyClick(window, Qt.Key.Key_Right)
     for _ in range(3):

@@ -102,13 +102,10 @@ def test_breakpoints_of_pixels_and_lines(window: MainWindow) -> None:
     assert session.stage_trace.pixel[row].tolist() == [30, 20]
     stepping.toggle_pixel_breakpoint()
     explanation = session.explanation
-    assert explanation is not None
-    assert explanation.listing is not None
     stepping.toggle_line_breakpoint(explanation.listing.function.__name__, explanation.line)
     session.go_to(0)
     stepping.run_to_breakpoint(1)
     reached = session.explanation
-    assert reached is not None
     assert reached.line == explanation.line
     assert session.cursor.position < first
 

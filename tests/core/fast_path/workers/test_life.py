@@ -205,7 +205,6 @@ def start(program: str, folder: Path, **options) -> subprocess.Popen[str]:
 
 
 def worker_of(process: subprocess.Popen[str]) -> int:
-    assert process.stdout is not None
     assert process.stdout.readline() == "main part\n"
     return int(process.stdout.readline())
 

@@ -9,7 +9,6 @@ from app.pages.words import best_sentences, with_unit
 from core.study.families import study_family
 from core.study.record import Point, Study, best_values
 from tests.core.study.accuracy.untimed_runs import run
-from widgets.experiments.series import ChartPicture
 
 WORK = study_family("fill").work("block-size")
 
@@ -47,7 +46,6 @@ def test_a_unit_that_is_a_fraction_takes_the_number_above_it() -> None:
 def test_the_chart_marks_it() -> None:
     study = measured()
     found = growth_of(study, "time", numbers_of(study.points))
-    assert isinstance(found, ChartPicture)
     assert [(series.key, series.best) for series in found.series] == [
         ("fill=blocks", 2),
         ("fill=bounding-box", -1),

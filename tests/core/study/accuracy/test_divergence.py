@@ -37,9 +37,7 @@ def test_fills_that_cover_the_same_pixels_in_another_order_do_not_part(pair: Cli
 
 def test_a_fill_that_covers_other_pixels_parts_at_the_first_of_them(pair: ClipScene) -> None:
     found = first_divergence(pair, Settings(), Settings(fill="scanline-lecture"))
-    assert found is not None
     assert (found.stage, found.triangle) == ("raster", 0)
-    assert found.pixel is not None
     column, row = found.pixel
     one = ClipScene(pair.clip[:1], size=SIZE)
     drawn = [
@@ -51,7 +49,6 @@ def test_a_fill_that_covers_other_pixels_parts_at_the_first_of_them(pair: ClipSc
 
 def test_interpolation_parts_at_its_stage_with_the_numbers(pair: ClipScene) -> None:
     found = first_divergence(pair, Settings(), Settings(interpolation="affine"))
-    assert found is not None
     assert (found.stage, found.triangle, found.names) == ("interpolate", 0, ("values",))
     first, second = (np.asarray(values["values"]) for values in found.values)
     assert not np.array_equal(first, second)
@@ -61,7 +58,6 @@ def test_interpolation_parts_at_its_stage_with_the_numbers(pair: ClipScene) -> N
 def test_a_depth_test_that_fails_parts_at_the_pixel() -> None:
     scene = flat_scene(cyclic_triangles(SIZE), SIZE)
     found = first_divergence(scene, Settings(), Settings(visibility="last-drawn"))
-    assert found is not None
     assert (found.stage, found.names) == ("depth", ("passes", "after"))
     assert found.values[0]["passes"] != found.values[1]["passes"]
 
@@ -71,9 +67,7 @@ def test_filters_part_at_the_texels_and_a_region_narrows_the_search() -> None:
 
     scene = textured_quad(12, 2.0, 1.0, checkerboard(16, 0))
     found = first_divergence(scene, Settings(), Settings(texture_filter="nearest"), region=(4, 4, 3, 3))
-    assert found is not None
     assert found.stage == "shade"
-    assert found.pixel is not None
     assert 4 <= found.pixel[0] < 7
     assert 4 <= found.pixel[1] < 7
 
@@ -85,7 +79,6 @@ def test_clipping_parts_where_a_triangle_is_cut() -> None:
     found = first_divergence(
         ClipScene(clip.astype(float), size=SIZE), Settings(), Settings(clipping="sutherland-hodgman")
     )
-    assert found is not None
     assert (found.stage, found.triangle, found.pixel) == ("clip", 1, None)
 
 

@@ -40,6 +40,5 @@ def test_a_wrong_decision_shows_in_the_picture_and_opens():
     point = next(each for each in study.points if each.method == "line_clipping=cyrus-beck-lecture")
     assert pictures(study, point).difference.any()
     where = opening(study, point)
-    assert where is not None
     assert where.settings.polygon_mode == "wireframe"
     assert where.settings.line_clipping == "cyrus-beck-lecture"

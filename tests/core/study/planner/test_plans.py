@@ -176,7 +176,6 @@ def test_a_plan_says_what_rays_in_a_tree_and_scan_lines_would_ask() -> None:
     found = plan(scene, Tolerance(), costs=Costs())
     said = next(each.reason for each in found.decisions if each.setting == "visibility")
     grown = object_tree(scene, transform_vertices(scene), Settings(visibility="ray-casting-tree"))
-    assert grown is not None
     deepest = int(grown.tree.depth.max())
     assert f"would ask at most {1 + 2 * deepest} boxes and 8 triangles." in said
     covered = render(scene, Settings(cull="none")).cover_count

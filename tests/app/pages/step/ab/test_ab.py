@@ -15,7 +15,6 @@ from app.pages.step.ab.side_b import first_difference, right_ones, settings_diff
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import STAGES, Settings
-from core.scene import Scene
 from core.study.divergence import diverge, is_same_schedule, stage_divergence
 from lessons.scenes import make_scene
 from widgets.grid.compare_view import Side
@@ -27,7 +26,6 @@ pytestmark = pytest.mark.shared_window
 def row_of_b(window: MainWindow) -> int:
     """Return the row that B has just done."""
     second = window.page.comparing.second
-    assert second is not None
     return second.row
 
 
@@ -150,7 +148,6 @@ def test_two_depth_formats_are_compared_in_what_both_hold(window: MainWindow) ->
     window.page.show_view("compare")
     assert window.page.comparing.other.depth == "z-16"
     shown = window.page.compare_view.grids[2].buffer()
-    assert shown is not None
     assert shown.values.any()
 
 
@@ -167,14 +164,12 @@ def test_both_stand_at_the_same_pixel_and_steps_are_undone(window: MainWindow) -
     for _ in range(12):
         pixel, second = session.moment.pixel, comparing.second
         assert pixel is not None
-        assert second is not None
         assert second.pixel == pixel or not len(theirs.rows_at_pixel(*pixel))
         went.append((session.cursor, second.cursor))
         window.run_action("step_forward")
     while went:
         window.run_action("step_back")
         second = comparing.second
-        assert second is not None
         assert (session.cursor, second.cursor) == went.pop()
 
 
@@ -186,7 +181,6 @@ def test_b_goes_on_alone_where_a_has_no_step(window: MainWindow) -> None:
     window.page.show_view("compare")
     window.run_action("step_forward")
     second = comparing.second
-    assert second is not None
     assert (session.cursor.position, second.row) == (0, 0), "the edges of the scanline"
     assert "waits for B, step 0 of" in view.titles[0].text()
     outside = np.flatnonzero(session.stage_trace.marks["rejected"])[0]
@@ -194,7 +188,6 @@ def test_b_goes_on_alone_where_a_has_no_step(window: MainWindow) -> None:
     assert "waits for A, step" in view.titles[1].text()
     session.go_to(session.stage_trace.steps.count)
     second = comparing.second
-    assert second is not None
     assert second.is_stage_done
 
 
@@ -218,7 +211,6 @@ def test_the_first_divergence_is_reached_in_both(window: MainWindow, qtbot: QtBo
     session, comparing = window.session, window.page.comparing
     other = session.document.make_trace(comparing.other)
     found = diverge(session.trace, other, by_outcome=True)
-    assert found is not None
     assert session.cursor.stage == found.stage == "interpolate"
     rows = [session.stage_trace.steps.row_at(session.cursor.position)[0]]
     rows.append(row_of_b(window))
@@ -314,7 +306,6 @@ def test_pin_and_hover_are_linked(window: MainWindow) -> None:
 
 def test_what_b_cannot_draw_is_told_in_its_place(window: MainWindow) -> None:
     scene = make_scene("cube")
-    assert isinstance(scene, Scene)
     window.page.show_view("compare")
     window.page.compare_view.setting_chosen.emit("depth", "inverse-w")
     flat = replace(scene, camera=replace(scene.camera, projection="orthographic"))

@@ -52,7 +52,6 @@ def test_a_depth_test_that_keeps_the_wrong_depth_parts_where_it_is_kept() -> Non
     )
     runs = trace(scene, plain), trace(scene, apply_edit(plain, Edit("depth_test", "z-float32", source)))
     found = diverge(*runs, by_outcome=True)
-    assert found is not None
     kept = [run.stage("depth").columns["after"] for run in runs]
     assert (found.stage, found.rows[0]) == ("depth", int(np.flatnonzero(kept[0] != kept[1])[0]))
     assert "the depth that is kept" in divergence_text(found, *runs)
