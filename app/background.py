@@ -179,27 +179,15 @@ class Job(QObject):
         self._retired = [worker for worker in self._retired if worker.isRunning()]
 
 
-class JobGroup(QObject):
-    """The jobs of a page: each does at most one piece of work at a time, and the newest counts."""
+def is_working(owner: QObject) -> bool:
+    """Return whether an object, or one that belongs to it, waits for a result."""
+    return any(job.is_running for job in owner.findChildren(Job))
 
-    def __init__(self, parent: QObject | None = None) -> None:
-        super().__init__(parent)
-        self._jobs: list[Job] = []
 
-    def add_job(self, expected: Expected = (ValueError, MemoryError)) -> Job:
-        """Return another job of the page."""
-        self._jobs.append(Job(self, expected))
-        return self._jobs[-1]
-
-    @property
-    def is_running(self) -> bool:
-        """Whether any result is being waited for."""
-        return any(job.is_running for job in self._jobs)
-
-    def shut_down(self) -> None:
-        """Cancel everything and wait for the threads."""
-        for job in self._jobs:
-            job.shut_down()
+def end_work(owner: QObject) -> None:
+    """Cancel the work of an object and of all that belong to it, and wait for the threads; see `ending_within`."""
+    for job in owner.findChildren(Job):
+        job.shut_down()
 
 
 # One piece of long work at a time, whatever page asked for it: at once each would falsify the times of the

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
-from app.background import Job, JobGroup, Progress
+from app.background import Job, Progress
 from app.files.file_access import FileWriteError, make_folder, read_input, write_file
 from app.files.user_folders import ANSWERS, data_folder
 from lessons.attempts.record import DEFAULT_USER
@@ -43,7 +43,7 @@ def results_folder() -> Path:
     return data_folder() / "results"
 
 
-class KeptResults(JobGroup):
+class KeptResults(QObject):
     """Writes results and reads them again, off the GUI thread; does nothing before it has begun."""
 
     found = Signal(object, bool)
@@ -56,7 +56,7 @@ class KeptResults(JobGroup):
         super().__init__(parent)
         self._kind, self._load = kind, load
         self._has_begun = False
-        self._reading, self._writing = (self.add_job((OSError, ValueError)) for _ in range(2))
+        self._reading, self._writing = (Job(self, (OSError, ValueError)) for _ in range(2))
         self._reading.part_done.connect(self._take)
         self._reading.succeeded.connect(self._tell_unread)
         for job in (self._reading, self._writing):

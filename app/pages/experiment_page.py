@@ -7,7 +7,7 @@ from typing import Any
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal, Slot
 from PySide6.QtWidgets import QScrollArea, QSplitter, QWidget
 
-from app.background import JobGroup, PartWork, turns
+from app.background import Job, PartWork, turns
 from app.export.views import copy_widget
 from app.pages.columns import SideColumns
 from app.pages.page_bar import Page, StepRequest, percent_done
@@ -45,8 +45,7 @@ class ExperimentPage(Page):
         self._told: Progress | None = None
         self.place = ElidedLabel(self)
         self.place.hide()
-        self.jobs = JobGroup(self)
-        self.work = self.jobs.add_job()
+        self.work = Job(self)
         """Gives parts of a result as they are done, and the result in the end."""
         self.work.progressed.connect(self._follow_work)
         self.work.part_done.connect(self._take_part)
@@ -204,10 +203,6 @@ class ExperimentPage(Page):
         """Return the controls with the result, what is opened of it, and the column at the left."""
         return [*self.panes.findChildren(QWidget, options=Qt.FindChildOption.FindDirectChildrenOnly), self]
 
-    def stop(self) -> None:
-        """End all work."""
-        self.jobs.shut_down()
-
 
 class _WrappingPane(QWidget):
     """A pane of a splitter, never lower than its wrapped rows: a splitter does not ask for a height by the width."""
@@ -290,11 +285,11 @@ class DrawnPictures:
 class OpenedPictures(QObject):
     """At most one drawing of pictures and one search in them at a time."""
 
-    def __init__(self, view: StudyPictures, jobs: JobGroup, page: Page) -> None:
+    def __init__(self, view: StudyPictures, page: Page) -> None:
         super().__init__(page)
         self._view, self._page = view, page
         self._drawn: DrawnPictures | None = None
-        self.drawing, self._searching = jobs.add_job(), jobs.add_job()
+        self.drawing, self._searching = Job(self), Job(self)
         self.drawing.succeeded.connect(self._show)
         self.drawing.failed.connect(self._show_failure)
         self._searching.succeeded.connect(self._take_divergence)

@@ -8,7 +8,7 @@ from PySide6.QtCore import QByteArray, QEvent, Qt, Signal, Slot
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QApplication, QSplitter, QStackedWidget, QTabBar, QWidget
 
-from app.background import Job
+from app.background import Job, end_work
 from app.session.moment import Change
 from app.session.session import Session
 from core.explain.records import Formula
@@ -245,7 +245,8 @@ class Page(QWidget):
         """Stop what nobody sees: another page is shown now."""
 
     def stop(self) -> None:
-        """End every thread: the window closes."""
+        """End all work: the window closes."""
+        end_work(self)
 
     def splitters(self) -> dict[str, QSplitter]:
         """Return what divides the panes, by names that no other page uses."""

@@ -391,11 +391,6 @@ class ResultPage(ExperimentPage, Generic[Content, ChoiceType]):
         copy_widget(self.main_view())
         self.tell(f"Copied the {self._kind.view}.")
 
-    def stop(self) -> None:
-        """End all work, and finish what is being written."""
-        super().stop()
-        self.kept.shut_down()
-
     # What a page says.
 
     def _show_controls(self) -> None:

@@ -332,8 +332,7 @@ class StartPage(Page):
     def stop(self) -> None:
         """End drawing and reading."""
         self._painted.stop()
-        self._job.shut_down()
-        self.lessons.job.shut_down()
+        super().stop()
 
 
 def draw_pictures(

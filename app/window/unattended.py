@@ -8,6 +8,7 @@ from typing import Any
 from PySide6.QtCore import QEventLoop, Qt, QThread
 from PySide6.QtWidgets import QApplication
 
+from app.background import is_working
 from app.files.open_any import open_any
 from app.pages.compare.page import ComparePage
 from app.pages.exercises.catalogue_presenter import FIRST_COURSE
@@ -129,7 +130,7 @@ def _show_result(page: ResultPage[Any, Any], content: PageContent) -> None:
         page.choose(_known(what, content.method, [point.method for point in page.content.points]))
     elif isinstance(page, StabilityPage):
         page.choose_failure(_known(what, content.method, list(page.info.methods)))
-    _wait_until(lambda: not page.jobs.is_running)
+    _wait_until(lambda: not is_working(page))
 
 
 def _ask(page: ExercisesPage, content: PageContent) -> None:

@@ -93,7 +93,7 @@ class ComparePage(ResultPage[Study, FamilyChoice]):
         self.controls: StudyControls = StudyControls(self)
         self.scatter, self.growth = Chart("Error against cost", self), Chart("Cost against size", self)
         self.legend, self.table, self.pictures = ChartLegend(self), StudyTable(self), StudyPictures(self)
-        self.opened = OpenedPictures(self.pictures, self.jobs, self)
+        self.opened = OpenedPictures(self.pictures, self)
         self._unmeasured: Study | None = None
         """What runs or ran last, without its points."""
         self._numbers: dict[str, int] = {}

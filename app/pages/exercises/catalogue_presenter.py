@@ -124,11 +124,6 @@ class CataloguePresenter(QObject):
         self.user, self.attempts, self._choice = user, (), None
         self.begin()
 
-    def stop(self) -> None:
-        """End all work."""
-        self._reading.shut_down()
-        self._choosing.shut_down()
-
     @Slot(object)
     def _take_found(self, found: Found) -> None:
         self.templates, self.attempts = {**self.templates, **found.templates}, found.attempts
@@ -410,15 +405,6 @@ class ProgressPresenter(QObject):
     @Slot(object)
     def _refuse_import(self, problem: Exception) -> None:
         self._page.refuse(f"The answers were not imported: {problem_text(problem)}.")
-
-    @property
-    def is_working(self) -> bool:
-        """Whether answers are being imported."""
-        return self.job.is_running
-
-    def stop(self) -> None:
-        """End all work."""
-        self.job.shut_down()
 
 
 def _place(count: object) -> int:

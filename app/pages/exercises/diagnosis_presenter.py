@@ -75,15 +75,6 @@ class DiagnosisPresenter(QObject):
         view.run_requested.connect(self._show_run)
         session.changed.connect(self._hide_asked)
 
-    @property
-    def is_working(self) -> bool:
-        """Whether a picture is being compared."""
-        return self.job.is_running
-
-    def stop(self) -> None:
-        """End all work."""
-        self.job.shut_down()
-
     @Slot()
     def ask_picture(self) -> None:
         """Ask for a picture of the open scene."""

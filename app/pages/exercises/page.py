@@ -11,6 +11,7 @@ from PySide6.QtCore import QCoreApplication, QObject, Qt, QThread, Slot
 from PySide6.QtGui import QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QApplication, QPushButton, QSplitter, QStackedWidget, QWidget
 
+from app.background import is_working
 from app.files.file_access import DRAWN_ENDINGS
 from app.files.file_dialogs import ask_folder
 from app.files.kept_work import UnfinishedFile
@@ -159,7 +160,6 @@ class ExercisesPage(Page):
         self.panes = PaneSplitter(Qt.Orientation.Horizontal, self)
         self.diagnosis_view = DiagnosisView(self)
         self.diagnosis = DiagnosisPresenter(session, self.diagnosis_view, self)
-        self._presenters = self.questions, self.exercises, self.diagnosis, self.progress
         for pane, stretch in ((self.question_view, 2), (self.grid, 3)):
             self.panes.addWidget(pane)
             self.panes.setStretchFactor(self.panes.count() - 1, stretch)
@@ -415,7 +415,7 @@ class ExercisesPage(Page):
 
     def settle(self) -> None:
         """Wait until the question is there."""
-        while any(each.is_working for each in self._presenters):
+        while self.questions.is_working or is_working(self):
             QCoreApplication.processEvents()
             QThread.msleep(5)
 
@@ -433,6 +433,6 @@ class ExercisesPage(Page):
 
     def stop(self) -> None:
         """End all work, and keep the answer."""
-        for each in self._presenters:
-            each.stop()
+        self.questions.stop()
+        super().stop()
         self.unfinished.finish()

@@ -8,7 +8,7 @@ from typing import Any
 from PySide6.QtCore import QObject, Qt, Signal, Slot
 from PySide6.QtGui import QGuiApplication
 
-from app.background import JobGroup
+from app.background import Job, end_work
 from app.files.kept_work import Unfinished, UnfinishedFile
 from app.pages.exercises.answers import (
     AnswerHistory,
@@ -81,8 +81,7 @@ class QuestionPresenter(QObject):
         self._history = AnswerHistory(grid, self)
         self._begun = monotonic()
         self.evidence = Evidence(view, grid, page)
-        self._jobs = JobGroup(self)
-        self._asking, self._checking, self._drawing, self._trying = (self._jobs.add_job() for _ in range(4))
+        self._asking, self._checking, self._drawing, self._trying = (Job(self) for _ in range(4))
         self._waiting: list[Callable[[], None]] = []
         """What ends this question, and was wanted while its answer was being checked."""
         self._asking.succeeded.connect(self._show)
@@ -116,7 +115,7 @@ class QuestionPresenter(QObject):
     def stop(self) -> None:
         """End all work."""
         self._waiting.clear()
-        self._jobs.shut_down()
+        end_work(self)
 
     def after_check(self, act: Callable[[], None]) -> None:
         """Do now what ends the question, or once its answer, if it is being checked, has its verdict."""

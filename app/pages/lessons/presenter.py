@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
-from app.background import Job
+from app.background import Job, end_work
 from app.files.state_files import State
 from app.pages.step.inspector_presenter import FIRST_MS
 from app.pages.step.kept_look import show_state, state_of
@@ -123,10 +123,8 @@ class LessonPresenter(QObject):
     def stop(self) -> None:
         """End all work."""
         self._painted.stop()
-        self._job.shut_down()
-        self._reading.shut_down()
+        end_work(self)
         if self._walk is not None:
-            self._walk.stop()
             self.attempts.stop()
 
     @property

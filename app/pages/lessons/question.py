@@ -128,17 +128,6 @@ class LessonAnswers(QObject):
         view.check_requested.connect(self.check)
         view.answer_changed.connect(self._follow_answer)
 
-    @property
-    def is_working(self) -> bool:
-        """Whether an answer is being judged or drawn."""
-        return any(job.is_running for job in (self._judging, self._drawing, self._trying))
-
-    def stop(self) -> None:
-        """End all work."""
-        self.end()
-        for job in (self._judging, self._drawing, self._trying):
-            job.shut_down()
-
     def end(self) -> None:
         """Ask nothing any more."""
         self.asked, self.is_open, self.last, self.wrong_count = None, False, None, 0

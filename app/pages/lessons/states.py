@@ -189,11 +189,6 @@ class LessonStates(QObject):
         """Whether a state that is wanted is being traced."""
         return self._wanting.is_running
 
-    def stop(self) -> None:
-        """End all work."""
-        self._wanting.shut_down()
-        self._preparing.shut_down()
-
     def forget(self) -> None:
         """Forget what was traced, and want nothing any more."""
         self._wanting.cancel()
@@ -361,16 +356,6 @@ class LessonWatch(QObject):
         self._job = Job(self)
         self._job.succeeded.connect(self._take)
         session.changed.connect(self._follow)
-
-    @property
-    def is_working(self) -> bool:
-        """Whether a change is being looked at."""
-        return self._job.is_running
-
-    def stop(self) -> None:
-        """End all work."""
-        self.end()
-        self._job.shut_down()
 
     def begin(self, until: "UntilPart") -> None:
         """Watch for a task that begins with what is open now."""

@@ -8,6 +8,7 @@ from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QApplication
 
+from app.background import is_working
 from app.pages.lessons.question import RIGHT, SHOWN, JudgedAnswer, LessonAnswers
 from app.pages.lessons.states import PANES, LessonStates, LessonWatch, OpenState, Wanted, paragraphs
 from app.session.moment import Change
@@ -116,12 +117,7 @@ class LessonTask(QObject):
     @property
     def is_working(self) -> bool:
         """Whether a state is being traced, or an answer or a task is being looked at."""
-        return self.states.is_working or self.answers.is_working or self._watch.is_working
-
-    def stop(self) -> None:
-        """End all work."""
-        for part in (self.states, self.answers, self._watch):
-            part.stop()
+        return self.states.is_working or is_working(self)
 
     def begin(
         self,

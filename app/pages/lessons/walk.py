@@ -73,10 +73,6 @@ class LessonWalk(QObject):
         """Whether a state is being traced, or an answer or a task is being looked at."""
         return self.task.is_working
 
-    def stop(self) -> None:
-        """End all work."""
-        self.task.stop()
-
     def begin(
         self, course: Course, lesson: Lesson, number: int | None, standings: Sequence[Standing], recall: str
     ) -> None:

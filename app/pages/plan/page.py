@@ -30,7 +30,7 @@ class PlanPage(ExperimentPage):
         self.controls: PlanControls = PlanControls(self)
         self.summary, self.rows = PlanSummary(self), PlanRows(self)
         self.findings, self.pictures = PlanFindings(self), StudyPictures(self)
-        self.opened = OpenedPictures(self.pictures, self.jobs, self)
+        self.opened = OpenedPictures(self.pictures, self)
         self.shown: PlanShown | None = None
         self._finished: PlanShown | None = None
         """What comes back if an analysis comes to nothing."""

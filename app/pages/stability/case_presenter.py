@@ -5,7 +5,7 @@ from functools import partial
 
 from PySide6.QtCore import QObject, Slot
 
-from app.background import JobGroup
+from app.background import Job
 from app.pages.page_bar import Page, StepRequest
 from app.pages.stability.jobs import CaseFound, CaseOrder, run_case, shrink_case, wanted_cover
 from app.pages.stability.records import case_record, has_formats, is_failure
@@ -110,14 +110,14 @@ DIAL = "precision-dial"
 class CasePresenter(QObject):
     """Keeps the case of a cell; at most one look at it, one shrinking and one reading at a time."""
 
-    def __init__(self, view: CaseView, jobs: JobGroup, page: Page) -> None:
+    def __init__(self, view: CaseView, page: Page) -> None:
         super().__init__(page)
         self._view, self._page = view, page
         self.found: CaseFound | None = None
         """The case that is shown, as it was run or made small."""
         self._steps_when_found = False
-        self._looking, self._reading = jobs.add_job(), jobs.add_job()
-        self._shrinking = jobs.add_job((ValueError, MemoryError, StudyCancelledError))
+        self._looking, self._reading = Job(self), Job(self)
+        self._shrinking = Job(self, (ValueError, MemoryError, StudyCancelledError))
         self._looking.succeeded.connect(self._show_case)
         self._looking.failed.connect(self._show_failure)
         self._shrinking.succeeded.connect(self._show_shrunk)

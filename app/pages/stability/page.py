@@ -87,7 +87,7 @@ class StabilityPage(ResultPage[Atlas, ExperimentChoice]):
         self.maps, self.case = AtlasView(self), CaseView(self)
         self.curves = Chart("Severity along the axis", self), ChartLegend(self)
         self._chart, self._legend = self.curves
-        self.opened = CasePresenter(self.case, self.jobs, self)
+        self.opened = CasePresenter(self.case, self)
         self.refresh()
         curves = splitter(Qt.Orientation.Horizontal, ((self._chart, 1, 800), (self._legend, 0, 150)), self)
         self.seen = splitter(Qt.Orientation.Vertical, ((self.maps, 1, 200), (curves, 1, 200)), self)

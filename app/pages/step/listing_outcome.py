@@ -74,10 +74,6 @@ class ListingOutcome(QObject):
         """Whether the mistake that an edit is is being looked for."""
         return self._naming.is_running
 
-    def stop(self) -> None:
-        """End looking for mistakes."""
-        self._naming.shut_down()
-
     def cancel(self) -> None:
         """Look for no mistake any more."""
         self._naming.cancel()

@@ -431,13 +431,11 @@ class StepPage(Page):
     def stop(self) -> None:
         """Play no further, and end drawing in the background."""
         self.timeline.show_playing(False)
-        self.comparing.stop()
-        self.editing.outcome.stop()
-        self.shading.stop()
         self.lessons.stop()
         self.inspector.ahead.stop()
         self.views.stop()
         self.navigation.stop()
+        super().stop()
 
     def splitters(self) -> dict[str, QSplitter]:
         """Return what divides the panes."""

@@ -399,10 +399,6 @@ class ShaderPresenter(QObject):
         else:
             self._page.setFocus()
 
-    def stop(self) -> None:
-        """End a trial, and wait for its thread."""
-        self._job.shut_down()
-
     @Slot()
     def _tell_drawing(self) -> None:
         if self._job.is_running:

@@ -5,12 +5,11 @@ from threading import Event
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.background import CancelledWaitError, JobGroup, Turns
+from app.background import CancelledWaitError, Job, Turns
 
 
 def test_work_waits_for_that_of_another_page_and_names_it(qtbot: QtBot) -> None:
-    turns, group = Turns(), JobGroup()
-    first, second = group.add_job(), group.add_job()
+    turns, first, second = Turns(), Job(), Job()
     may_end, order = Event(), []
 
     def measure(progress, is_cancelled) -> None:
@@ -30,7 +29,8 @@ def test_work_waits_for_that_of_another_page_and_names_it(qtbot: QtBot) -> None:
     with qtbot.waitSignals([first.succeeded, second.succeeded]):
         may_end.set()
     assert order == ["Compare", "Plan"]
-    group.shut_down()
+    first.shut_down()
+    second.shut_down()
 
 
 def test_work_that_is_cancelled_while_it_waits_gives_up() -> None:

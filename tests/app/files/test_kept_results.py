@@ -9,6 +9,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
+from app.background import end_work, is_working
 from app.files.file_access import FileWriteError
 from app.files.kept_work import LARGEST, KeptResults, remove_oldest, results_folder, write_result
 from app.pages.compare.page import ComparePage
@@ -91,7 +92,7 @@ def test_an_atlas_is_there_again_and_one_of_a_scene_says_that_it_has_none(
     qtbot.waitUntil(lambda: second.choice.result is not None, timeout=20000)
     assert second.info.methods == first.info.methods
     second.choose_failure(second.info.methods[0])
-    assert not second.jobs.is_running, "another scene is open: its cells are not those of the atlas"
+    assert not is_working(second.opened), "another scene is open: its cells are not those of the atlas"
     assert second.controls.start_button.isEnabled()
     second.start()
     assert second.is_running, "it is run on the scene that is open now"
@@ -163,7 +164,7 @@ def test_a_folder_that_cannot_be_made_is_told(
     kept.begin()
     kept.keep("line", lambda: b"{}")
     qtbot.waitUntil(lambda: bool(told), timeout=20000)
-    kept.shut_down()
+    end_work(kept)
     assert told[0].startswith("The result could not be kept for the next start: ")
     assert "cannot be made" in told[0]
 

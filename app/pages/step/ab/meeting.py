@@ -42,10 +42,6 @@ class Meeting(QObject):
         """Search no further."""
         self._search.cancel()
 
-    def stop(self) -> None:
-        """Search no further, and wait for the thread."""
-        self._search.shut_down()
-
     @Slot()
     def go_to_divergence(self, since: str = "") -> None:
         """Search for the first step that differs, at last in the stages before ``since``, and put both runs there.

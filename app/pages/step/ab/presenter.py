@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal, Slot
 
+from app.background import is_working
 from app.pages.page_bar import Page
 from app.pages.step.ab.lock_step import LockStep
 from app.pages.step.ab.meeting import Meeting
@@ -297,7 +298,7 @@ class ComparePresenter(QObject):
             # The last picture stays until the next one is there.
             self._second, self._steps = kept
         self._drawing.draw(other, stage, is_typed=bool(b.edits))
-        if self._drawing.is_running:
+        if is_working(self._drawing):
             self._refusal = "Drawing B …"
             self._show()
 
@@ -325,12 +326,6 @@ class ComparePresenter(QObject):
         self._second, self._steps = None, None
         self._show()
 
-    def stop(self) -> None:
-        """End drawing in the background."""
-        self.meeting.stop()
-        self._drawing.stop()
-        self.edited.stop()
-
     # Edited listings.
 
     def show_begun(self, edit: "Edit | None") -> None:
@@ -347,12 +342,12 @@ class ComparePresenter(QObject):
     @property
     def is_drawing(self) -> bool:
         """Whether B is being drawn in the background."""
-        return self._drawing.is_running or self.edited.is_running
+        return is_working(self._drawing) or is_working(self.edited)
 
     def cancel_drawing(self) -> None:
         """Draw B no further."""
         self.edited.cancel()
-        if self._drawing.is_running:
+        if is_working(self._drawing):
             self._drawing.cancel()
             self._refusal = "B was stopped."
             self._show()

@@ -35,11 +35,6 @@ class BoundedRun(QObject):
         self._job.succeeded.connect(self.done)
         self._job.failed.connect(self.failed)
 
-    @property
-    def is_running(self) -> bool:
-        """Whether something runs in the background."""
-        return self._job.is_running
-
     def do(self, work: Callable[[], Any], *, is_long: bool = False) -> None:
         """Begin work that runs typed texts; what ``is_long`` goes to the background at once."""
         from core.lanes.run import bounded  # Wanted by few, long after the start.
@@ -62,10 +57,6 @@ class BoundedRun(QObject):
     def cancel(self) -> None:
         """Wait for nothing; what runs ends within some statements of its text."""
         self._job.cancel()
-
-    def stop(self) -> None:
-        """Cancel, and wait for the thread."""
-        self._job.shut_down()
 
 
 def _stoppable(work: Callable[[], Any], is_cancelled: Callable[[], bool]) -> Any:
@@ -96,18 +87,9 @@ class EditedB(QObject):
         self._trial.done.connect(self._take)
         self._trial.failed.connect(self.failed)
 
-    @property
-    def is_running(self) -> bool:
-        """Whether a text is being tried in the background."""
-        return self._trial.is_running
-
     def cancel(self) -> None:
         """Try no further."""
         self._trial.cancel()
-
-    def stop(self) -> None:
-        """Try no further, and wait for the thread."""
-        self._trial.stop()
 
     def find(self, document: Document) -> str:
         """Find what B is beside a document; return why it cannot be drawn, empty: it can.
@@ -176,11 +158,6 @@ class DrawnB(QObject):
         self._bounded.done.connect(self.drawn)
         self._bounded.failed.connect(self.failed)
 
-    @property
-    def is_running(self) -> bool:
-        """Whether B is being drawn in the background."""
-        return self._job.is_running or self._bounded.is_running
-
     def draw(self, other: Document, stage: str, *, is_typed: bool) -> None:
         """Draw a document up to a stage; `drawn` or `failed` follows, before this returns where it is quick."""
         is_long = other.estimated_seconds > QUICK_SECONDS
@@ -200,11 +177,6 @@ class DrawnB(QObject):
         """Draw no further."""
         self._job.cancel()
         self._bounded.cancel()
-
-    def stop(self) -> None:
-        """Draw no further, and wait for the threads."""
-        self._job.shut_down()
-        self._bounded.stop()
 
 
 def _drawn(other: Document, stage: str) -> Trace:
