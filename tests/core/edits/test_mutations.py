@@ -17,43 +17,12 @@ from tests.core.trace.trace_cases import lit_scene, textured_clip_scene
 
 MEMORY = 30_000_000
 """Bytes that a changed text and its picture may take at their peak."""
-WORDS = (
-    *("+", "-", "*", "/", "//", "%", "**", "<", "<=", "==", "=", "(", ")", "[", "]", ",", ":", "0", "1", "2"),
-    *(
-        "x",
-        "y",
-        "k",
-        "a",
-        "value",
-        "D",
-        "pixels",
-        "if",
-        "else",
-        "for",
-        "in",
-        "while",
-        "return",
-        "and",
-        "or",
-        "not",
-    ),
-    *(
-        "range(9)",
-        "abs(",
-        "True",
-        "[]",
-        ".append(",
-        "0.5",
-        "10**9",
-        "break",
-        "continue",
-        "\n",
-        "  ",
-        "'",
-        "len(",
-        "*x",
-    ),
+SIGNS_AND_NAMES = (
+    "+ - * / // % ** < <= == = ( ) [ ] , : 0 1 2"
+    " x y k a value D pixels if else for in while return and or not"
+    " range(9) abs( True [] .append( 0.5 10**9 break continue"
 )
+WORDS = (*SIGNS_AND_NAMES.split(), "\n", "  ", "'", "len(", "*x")
 SCENE = triangle_scene(
     [[(1, 1), (7, 1), (7, 7)], [(1, 1), (7, 7), (1, 7)]], (8, 8), depth=[[0.5] * 3, [0.4, 0.5, 0.6]]
 )
