@@ -102,15 +102,8 @@ def with_deformation(arrays: dict[str, Any]) -> dict[str, Any]:
 
 
 CLIP_ARRAYS = (
-    "clip",
-    "attributes",
-    "shared",
-    "clip_region",
-    "rings",
-    "region_rings",
-    "texture",
-    "curves",
-    "curve_colors",
+    *("clip", "attributes", "shared", "clip_region", "rings", "region_rings", "texture"),
+    *("curves", "curve_colors"),
 )
 """Arrays of a scene in clip space; the last two are its `core.records.curves.Curves`."""
 

@@ -81,20 +81,8 @@ def next_entry(groups: dict[str, list[Entry]], shown: str) -> str:
 
 
 MENUS = (
-    "File",
-    "Edit",
-    "Step",
-    "Stage",
-    "Lesson",
-    "Raster",
-    "Compare",
-    "Stability",
-    "Plan",
-    "Exercises",
-    "View",
-    "View/Panes",
-    "View/Pages",
-    "Help",
+    *("File", "Edit", "Step", "Stage", "Lesson", "Raster", "Compare", "Stability", "Plan", "Exercises"),
+    *("View", "View/Panes", "View/Pages", "Help"),
 )
 """Menus, and after a stroke those within one: each stands where its first entry would."""
 

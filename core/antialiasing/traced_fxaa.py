@@ -144,17 +144,8 @@ def _edge_columns(smoothed: SmoothedPicture, edge: Integers) -> dict[str, np.nda
 def _listings() -> dict[str, Listing]:
     shown, found, mixed = listing(srgb_byte), listing(edge_pixel), listing(mixed_byte)
     of_edge = (
-        "contrast",
-        "rows",
-        "columns",
-        "direction",
-        "side",
-        "pair",
-        "back",
-        "forth",
-        "edge",
-        "detail",
-        "offset",
+        *("contrast", "rows", "columns", "direction", "side", "pair", "back", "forth", "edge"),
+        *("detail", "offset"),
     )
     return (
         {"kept": shown, "smoothed": shown}

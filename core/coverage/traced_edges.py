@@ -23,15 +23,8 @@ from core.trace.stage_trace import StageTrace, no_pixels
 
 
 EDGE_KINDS = (
-    "snapped",
-    "homogeneous",
-    "orientation",
-    "edge",
-    "anchored-edge",
-    "left-out-edge",
-    "rounded",
-    "inverse-edge",
-    "determinant",
+    *("snapped", "homogeneous", "orientation", "edge", "anchored-edge", "left-out-edge", "rounded"),
+    *("inverse-edge", "determinant"),
 )
 
 

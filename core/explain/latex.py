@@ -21,31 +21,12 @@ _OPENING = {"{", "(", "[", r"\{", r"\left", r"\begin", r"\lfloor", r"\lceil", r"
 _CLOSING = {"}", ")", "]", r"\}", r"\right", r"\end", r"\rfloor", r"\rceil", r"\rangle"}
 _RELATIONS = {
     *(
-        "=",
-        "<",
-        ">",
-        r"\le",
-        r"\leq",
-        r"\ge",
-        r"\geq",
-        r"\ne",
-        r"\neq",
-        r"\approx",
-        r"\to",
-        r"\equiv",
-        r"\in",
+        *("=", "<", ">", r"\le", r"\leq", r"\ge", r"\geq", r"\ne", r"\neq", r"\approx", r"\to"),
+        *(r"\equiv", r"\in"),
     ),
     *(
-        r"\Rightarrow",
-        r"\rightarrow",
-        r"\mapsto",
-        r"\land",
-        r"\lor",
-        r"\wedge",
-        r"\vee",
-        r"\iff",
-        r"\quad",
-        r"\qquad",
+        *(r"\Rightarrow", r"\rightarrow", r"\mapsto", r"\land", r"\lor", r"\wedge", r"\vee", r"\iff"),
+        *(r"\quad", r"\qquad"),
     ),
 }
 _SIGNS = {"+", "-", r"\pm"}

@@ -153,17 +153,8 @@ shows("resolve", PIXEL)
 
 TOPICS = (
     *(
-        "transform",
-        "deformation",
-        "tessellation",
-        "trees",
-        "culling",
-        "clipping",
-        "coverage",
-        "spans",
-        "lines",
-        "interpolation",
-        "textures",
+        *("transform", "deformation", "tessellation", "trees", "culling", "clipping", "coverage"),
+        *("spans", "lines", "interpolation", "textures"),
     ),
     *("shading", "shaders", "depth", "visibility", "framebuffer", "antialiasing"),
 )

@@ -99,15 +99,8 @@ class Nouns:
     def text(self, template: str) -> str:
         """Return a text with what is drawn at ``{one}``, ``{many}``, ``{a_corner}`` ...; ``{One}`` has a capital."""
         names = (
-            "one",
-            "many",
-            "edge",
-            "corner",
-            "a_corner",
-            "vertex",
-            "a_vertex",
-            "vertices",
-            "three_vertices",
+            *("one", "many", "edge", "corner", "a_corner", "vertex", "a_vertex"),
+            *("vertices", "three_vertices"),
         )
         words = {name: getattr(self, name) for name in names}
         return template.format(

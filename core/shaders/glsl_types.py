@@ -161,43 +161,13 @@ RESERVED = (
         )
     )
     | {
-        "lowp",
-        "precision",
-        "layout",
-        "if",
-        "else",
-        "for",
-        "while",
-        "do",
-        "return",
-        "break",
-        "continue",
-        "discard",
+        *("lowp", "precision", "layout", "if", "else", "for", "while", "do", "return", "break"),
+        *("continue", "discard"),
     }
     | {
-        "true",
-        "false",
-        "struct",
-        "switch",
-        "case",
-        "default",
-        "varying",
-        "attribute",
-        "invariant",
-        "uint",
-        "input",
-        "output",
-        "sample",
-        "filter",
-        "common",
-        "active",
-        "half",
-        "fixed",
-        "double",
-        "goto",
-        "sizeof",
-        "cast",
-        "using",
+        *("true", "false", "struct", "switch", "case", "default", "varying", "attribute", "invariant"),
+        *("uint", "input", "output", "sample", "filter", "common", "active", "half", "fixed", "double"),
+        *("goto", "sizeof", "cast", "using"),
     }
 )
 

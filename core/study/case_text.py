@@ -14,17 +14,8 @@ LINE_LENGTH = 100
 UP = read_only(np.array([0.0, 1.0, 0.0]))
 """(3,) a camera's way up, if nothing is said of it."""
 NAMES = (
-    "Camera",
-    "ClipScene",
-    "DirectionalLight",
-    "Material",
-    "Mesh",
-    "Scene",
-    "Settings",
-    "Texture",
-    "clip_lines",
-    "draw_lines",
-    "render",
+    *("Camera", "ClipScene", "DirectionalLight", "Material", "Mesh", "Scene", "Settings", "Texture"),
+    *("clip_lines", "draw_lines", "render"),
 )
 """Names of ``core`` that a test may call."""
 

@@ -100,16 +100,9 @@ SHIFTS = (0.0, 0.25, 0.5, 0.75)
 MOST_TRIANGLES = 100_000
 """Of these, formats that test the whole raster take some ten seconds for one cell."""
 METHODS = (
-    "fill_rule=exclusive",
-    "fill_rule=inclusive",
-    "fill=scanline-lecture",
-    "coverage=float16",
-    "coverage=inverse",
-    "coverage=float32",
-    "coverage=float64",
-    "fill_rule=shared-edge",
-    "fill=spans",
-    "coverage=exact",
+    *("fill_rule=exclusive", "fill_rule=inclusive", "fill=scanline-lecture", "coverage=float16"),
+    *("coverage=inverse", "coverage=float32", "coverage=float64", "fill_rule=shared-edge"),
+    *("fill=spans", "coverage=exact"),
 )
 """As for the meshes of ``shared-edges``."""
 

@@ -153,19 +153,8 @@ def _replaced(text: str, old: str, new: str, where: str) -> str:
 RASTER_LIMIT = (96, 72)
 """Largest raster of a state in pixels: one on which every pixel can be pointed at."""
 OF_SCENE = (
-    "size",
-    "shared",
-    "corners",
-    "depth",
-    "w",
-    "vertices",
-    "camera",
-    "light",
-    "material",
-    "shaders",
-    "edit",
-    "triangle",
-    "pixel",
+    *("size", "shared", "corners", "depth", "w", "vertices", "camera", "light", "material", "shaders"),
+    *("edit", "triangle", "pixel"),
 )
 """What a state drops when it names another scene."""
 

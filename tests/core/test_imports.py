@@ -21,27 +21,13 @@ scene = ClipScene(clip, np.ones((1, 3, 4)), (8, 8))
 print(draw_picture(scene, Settings(cull="back", interpolation="flat", depth="fixed-38")).route.color)
 """
 UNUSED = (
-    "core.antialiasing.resolve",
-    "core.shading.lighting",
-    "core.textures.look_up",
-    "core.framebuffer.blending",
-    "core.lines.line_clipping",
-    "core.fast_path.blended",
-    "core.fast_path.lit",
-    "core.fast_path.sampled",
-    "core.fast_path.corner_colors",
-    "core.fast_path.sampled",
-    "core.pipeline",
-    "core.coverage.fills",
-    "core.lines.drawing",
-    "core.lines.wireframe",
-    "core.records.steps",
-    "core.study",
-    "core.trace.source",
-    "core.trace.tracers",
-    "core.trees.bounding_volumes",
-    "core.visibility.ray_casting",
-    "core.pixel_history",
+    *("core.antialiasing.resolve", "core.shading.lighting", "core.textures.look_up"),
+    *("core.framebuffer.blending", "core.lines.line_clipping", "core.fast_path.blended"),
+    *("core.fast_path.lit", "core.fast_path.sampled", "core.fast_path.corner_colors"),
+    *("core.fast_path.sampled", "core.pipeline", "core.coverage.fills", "core.lines.drawing"),
+    *("core.lines.wireframe", "core.records.steps", "core.study", "core.trace.source"),
+    *("core.trace.tracers", "core.trees.bounding_volumes"),
+    *("core.visibility.ray_casting", "core.pixel_history"),
 )
 """Parts of the core that a picture of plain triangles has no use for."""
 ON_DEMAND = (

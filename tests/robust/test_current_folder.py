@@ -8,16 +8,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 NAMES = (
     *(
-        "abc",
-        "base64",
-        "collections",
-        "contextlib",
-        "copy",
-        "ctypes",
-        "dataclasses",
-        "functools",
-        "io",
-        "json",
+        *("abc", "base64", "collections", "contextlib", "copy", "ctypes", "dataclasses", "functools"),
+        *("io", "json"),
     ),
     *("multiprocessing", "os", "pathlib", "pickle", "random", "re", "signal", "struct", "threading", "zlib"),
 )

@@ -12,17 +12,8 @@ CORE = tuple(
     path.parent.relative_to(bootstrap.ROOT).as_posix() for path in bootstrap.ROOT.glob("core/*/__init__.py")
 )
 APP = (
-    "cli",
-    "bench",
-    "opengl_check",
-    "window",
-    "help",
-    "pages",
-    "export",
-    "views",
-    "files",
-    "session",
-    "background",
+    *("cli", "bench", "opengl_check", "window", "help", "pages", "export", "views", "files"),
+    *("session", "background"),
 )
 CONTRACTS = dict(bootstrap.checks(bootstrap.ROOT, []))["import contracts"][1:]
 

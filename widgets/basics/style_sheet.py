@@ -144,16 +144,8 @@ def style_sheet(theme: Theme) -> str:
     """
     unit = theme.unit
     names = (
-        "window",
-        "panel",
-        "raised",
-        "outline",
-        "text",
-        "muted_text",
-        "focus",
-        "selection",
-        "good",
-        "bad",
+        *("window", "panel", "raised", "outline", "text", "muted_text", "focus", "selection"),
+        *("good", "bad"),
     )
     colors = {name: getattr(theme, name) for name in names}
     return _SHEET.substitute(

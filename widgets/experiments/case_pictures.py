@@ -130,16 +130,8 @@ class StudyPictures(PinnedPictures):
 
 
 HEAD = (
-    "Format",
-    "Pixel covered",
-    "Whole picture",
-    "Triangle",
-    "Decision",
-    "Edge",
-    "Value",
-    "Exact",
-    "Flipped by",
-    "Bits of the value",
+    *("Format", "Pixel covered", "Whole picture", "Triangle", "Decision", "Edge", "Value", "Exact"),
+    *("Flipped by", "Bits of the value"),
 )
 _BITS = HEAD.index("Bits of the value")
 EXPLANATIONS = (

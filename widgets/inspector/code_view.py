@@ -45,18 +45,8 @@ _GLSL_TOKEN = re.compile(
 _GLSL_WORDS = frozenset(
     (
         *(
-            "in",
-            "out",
-            "uniform",
-            "const",
-            "flat",
-            "precision",
-            "highp",
-            "mediump",
-            "lowp",
-            "layout",
-            "true",
-            "false",
+            *("in", "out", "uniform", "const", "flat", "precision", "highp", "mediump", "lowp", "layout"),
+            *("true", "false"),
         ),
         *(
             "void",

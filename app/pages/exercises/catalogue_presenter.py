@@ -35,19 +35,9 @@ from widgets.exercises.records import ExerciseEntry, ExerciseGroup, ExerciseStan
 
 Attempts = tuple[Attempt, ...]
 FIRST_COURSE = (
-    "triangle-coverage",
-    "bresenham-pixels",
-    "vertex-pixels",
-    "front-pixels",
-    "pixels-beyond-near",
-    "inner-side",
-    "box-pixels",
-    "below-half",
-    "texel-pixels",
-    "nearer-pixels",
-    "blended-twice",
-    "grey-pixels",
-    "wrong-picture",
+    *("triangle-coverage", "bresenham-pixels", "vertex-pixels", "front-pixels", "pixels-beyond-near"),
+    *("inner-side", "box-pixels", "below-half", "texel-pixels", "nearer-pixels", "blended-twice"),
+    *("grey-pixels", "wrong-picture"),
 )
 """What somebody new is asked first: on the picture, one or two of each stage."""
 

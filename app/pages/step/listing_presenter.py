@@ -29,16 +29,8 @@ KEPT = "The text that has not run is kept: Edit opens it again."
 LOADING = "The editor is being loaded."
 LATER_MS = 50
 EDITED_FAMILIES = (
-    "cull",
-    "line",
-    "line_clipping",
-    "fill_rule",
-    "fill",
-    "interpolation",
-    "shading",
-    "texture_filter",
-    "depth",
-    "blend",
+    *("cull", "line", "line_clipping", "fill_rule", "fill", "interpolation", "shading", "texture_filter"),
+    *("depth", "blend"),
 )
 """Families whose listings can be edited, as `core.edits.EDITABLE` has them."""
 EDITED_STAGES = frozenset(FAMILIES[family].stage for family in EDITED_FAMILIES)

@@ -195,15 +195,8 @@ Samples come first, as everything after them is drawn that much faster. Not trie
 times as long as 4 x 4 samples, and 3 x 3 samples, which are within 8/255 on 25 of 70 random scenes where 2 x 2
 are on 23."""
 STAGES = (
-    "cull",
-    "clipping",
-    "interpolation",
-    "texture_filter",
-    "shading",
-    "visibility",
-    "depth",
-    "blend",
-    "antialiasing",
+    *("cull", "clipping", "interpolation", "texture_filter", "shading", "visibility", "depth"),
+    *("blend", "antialiasing"),
 )
 """Families that a plan decides on, in pipeline order."""
 

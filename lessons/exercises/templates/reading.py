@@ -24,20 +24,9 @@ from lessons.small_scenes import pixel_segments, triangle_scene
 
 
 LISTING = (
-    "dx = x1 - x0",
-    "dy = y1 - y0",
-    "yi = 1",
-    "if dy < 0:",
-    "    yi = -1",
-    "    dy = -dy",
-    "D = 2*dy - dx",
-    "y = y0",
-    "for x = x0 to x1:",
-    "    draw(x, y)",
-    "    if D > 0:",
-    "        y = y + yi",
-    "        D = D - 2*dx",
-    "    D = D + 2*dy",
+    *("dx = x1 - x0", "dy = y1 - y0", "yi = 1", "if dy < 0:", "    yi = -1", "    dy = -dy"),
+    *("D = 2*dy - dx", "y = y0", "for x = x0 to x1:", "    draw(x, y)", "    if D > 0:"),
+    *("        y = y + yi", "        D = D - 2*dx", "    D = D + 2*dy"),
 )
 """Bresenham's line for x0 < x1 and slopes from -1 to 1, the last pixel drawn."""
 FAULTS = {

@@ -223,22 +223,9 @@ def draw_samples(draws: Draws) -> Draft:
 
 
 REPAIRED = (
-    "tie-rule",
-    "inside-test",
-    "bresenham-lecture",
-    "bresenham",
-    "midpoint",
-    "dda",
-    "perspective",
-    "affine",
-    "depth-test",
-    "over",
-    "vertex-shader",
-    "scaling-shader",
-    "diffuse-shader",
-    "highlight",
-    "texture-shader",
-    "alpha-test-shader",
+    *("tie-rule", "inside-test", "bresenham-lecture", "bresenham", "midpoint", "dda", "perspective"),
+    *("affine", "depth-test", "over", "vertex-shader", "scaling-shader", "diffuse-shader", "highlight"),
+    *("texture-shader", "alpha-test-shader"),
 )
 COMPLETED = (
     "inside-test",
@@ -250,18 +237,8 @@ COMPLETED = (
     "diffuse-shader",
 )
 WRITTEN = (
-    "edge-function",
-    "tie-rule",
-    "inside-test",
-    "bresenham-step",
-    "dda",
-    "bilinear",
-    "depth-test",
-    "over",
-    "clip-position",
-    "lambert",
-    "highlight",
-    "checker",
+    *("edge-function", "tie-rule", "inside-test", "bresenham-step", "dda", "bilinear", "depth-test"),
+    *("over", "clip-position", "lambert", "highlight", "checker"),
 )
 DRAWN = ("dashes", "open-ends", "thick-line", "stripes", "around")
 LINES = pixel_segments([((1, 1), (10, 4)), ((2, 10), (10, 7)), ((0, 4), (3, 10))], (SIDE, SIDE))

@@ -93,19 +93,7 @@ def test_what_the_most_variables_take_stays_small():
 
 SIGNS = [
     *"(){}[];,.+-*/%<>=!?:",
-    "&&",
-    "||",
-    "++",
-    "--",
-    "+=",
-    "==",
-    "#",
-    "//",
-    "/*",
-    "*/",
-    "\n",
-    "\x00",
-    "é",
+    *("&&", "||", "++", "--", "+=", "==", "#", "//", "/*", "*/", "\n", "\x00", "é"),
 ]
 NAMES_IN_TURN = (
     "1 0 1.0 2 .5 1e9 2147483647 x y a b c t i vec2 vec3 vec4 float int bool mat3 if else for while return break "

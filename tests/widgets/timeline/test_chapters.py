@@ -11,17 +11,8 @@ from widgets.basics.theme import LIGHT
 from widgets.timeline.chapters import Chapter, ChapterRow, ChapterState, Spelling
 
 TITLES = [
-    "Transform",
-    "Cull",
-    "Clip",
-    "Edges",
-    "Bin",
-    "Raster",
-    "Interpolate",
-    "Shade",
-    "Depth",
-    "Blend",
-    "Resolve",
+    *("Transform", "Cull", "Clip", "Edges", "Bin", "Raster", "Interpolate", "Shade", "Depth"),
+    *("Blend", "Resolve"),
 ]
 
 
