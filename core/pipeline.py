@@ -57,9 +57,10 @@ from core.stages.fragments import (
     shade,
     shade_once,
 )
+from core.stages.geometry import Geometry
 from core.stages.hidden_surfaces import Visible, decide_fragments
 from core.stages.needs import check_edits
-from core.stages.vertices import Before, Geometry, process_geometry
+from core.stages.vertices import Before, process_geometry
 
 if TYPE_CHECKING:
     from core.antialiasing.temporal import MixedPicture

@@ -19,7 +19,8 @@ from app.bench.records import (
 )
 from app.bench.typed_text import by_rule, prepare
 from app.bench.workloads import clip_scene, lights_of, mesh_of, method_names, prepare_reading, view_of
-from app.files.mesh_files import LoadedMeshes, load_meshes
+from app.files.mesh_files import load_meshes
+from app.files.mesh_formats.reading import LoadedMeshes
 from core import Picture, Settings, draw_picture
 
 LIBRARY = "Rasterscope"

@@ -4,7 +4,8 @@ from contextlib import ExitStack
 
 from app.bench.ours import DISTRIBUTION, prepare_mesh
 from app.bench.records import Contender, Prepared, UnavailableError, ViewedMesh, Work
-from core.fast_path.workers import BandWorkers, Sharing
+from core.fast_path.workers.band_workers import BandWorkers
+from core.fast_path.workers.sharing import Sharing
 
 __all__ = ["DISTRIBUTION", "LIBRARY", "contender"]
 

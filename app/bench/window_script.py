@@ -16,7 +16,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from app.files.open_any import Opened
 from app.window.main_window import MainWindow
 from core import STAGES
-from core.fast_path.workers import BandWorkers
+from core.fast_path.workers.band_workers import BandWorkers
 from core.records.steps import Level
 from widgets.grid.geometry import vertex_place
 

@@ -13,9 +13,9 @@ import numpy as np
 
 from app.cli.commands import add_allow_outside
 from app.files.file_access import read_input
-from app.files.mesh_formats import OutsideMeshError, Report
+from app.files.mesh_formats.reading import OutsideMeshError, Report
 from app.files.open_any import Opened, open_any
-from app.files.state_files import OutsideSourceError
+from app.files.state_scenes import OutsideSourceError
 from app.usage import PROGRAM, UsageError
 from core import Settings
 from core.edits.edit import Edit, apply_edit

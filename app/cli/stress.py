@@ -9,8 +9,10 @@ from app.cli.arguments import progress_line
 from app.cli.commands import MOST_SEED, load_qt, output_folder, whole_number
 from app.export.failures import atlas_text, export_shrunk
 from app.usage import UsageError
-from core.study.record import machine
-from core.study.stability import Atlas, Experiment, Outcome, experiments, stress
+from core.study.cases import Atlas
+from core.study.experiment import Experiment
+from core.study.record import Outcome, machine
+from core.study.stability import experiments, stress
 from core.study.stress import shrink_cell
 
 DESCRIPTION = (

@@ -8,7 +8,9 @@ from app.files.file_access import write_file
 from app.files.state_files import EXTENSION, State, save_state
 from app.pages.words import digits, time_text
 from app.session.document import document_at
-from core.study.stability import Atlas, Axis, Outcome, StabilityMap, count_outcomes
+from core.study.cases import Atlas, StabilityMap
+from core.study.record import Axis, Outcome
+from core.study.stability import count_outcomes
 from core.study.stress import Shrunk
 
 # A stability experiment as text: one map of characters for every method, with a legend and the counts.

@@ -24,15 +24,8 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from app.files.mesh_formats import (
-    EXTENSIONS,
-    LoadedMeshes,
-    MeshFileError,
-    OutsideMeshError,
-    Report,
-    Wires,
-    read_file,
-)
+from app.files.mesh_formats import read_file
+from app.files.mesh_formats.reading import LoadedMeshes, MeshFileError, Report, Wires
 from core.records.arrays import Floats
 from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Mesh, Scene, Texture
 from core.transform.matrices import projection, transform, world_to_camera
@@ -157,19 +150,6 @@ def serve() -> None:
 
 
 # Opening mesh files: a path becomes a scene that is centred, framed and lit, or one clear sentence.
-
-
-__all__ = [
-    "EXTENSIONS",
-    "LoadedMeshes",
-    "MeshFileError",
-    "OpenedFile",
-    "OpeningCancelledError",
-    "OutsideMeshError",
-    "frame_meshes",
-    "load_meshes",
-    "open_mesh",
-]
 
 VIEWED_FROM = (0.35, 0.4, 1.0)
 """Direction from the model to the camera: from the front, a little from the right and from above."""

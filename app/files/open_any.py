@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from app.files.file_access import OutsideWarning, shown_name
-from app.files.mesh_files import MeshFileError, open_mesh
-from app.files.mesh_formats import Report
+from app.files.mesh_files import open_mesh
+from app.files.mesh_formats.reading import MeshFileError, Report
 from app.files.state_arrays import remember_file
 from app.files.state_files import EXTENSION, State, load_state
 from app.session.document import STEPPED, Document, check_drawing, focus_on, open_document, shortened

@@ -23,8 +23,9 @@ from PySide6.QtCore import QElapsedTimer, QLockFile, QObject, QTimer, Signal, Si
 from app.background import Job
 from app.files.file_access import FileWriteError, make_folder, open_input, remove_abandoned
 from app.files.state_arrays import ArrayFolder, array_folder
-from app.files.state_files import EXTENSION, State, StateFileError, save_state
+from app.files.state_files import EXTENSION, State, save_state
 from app.files.state_models import Breakpoints
+from app.files.state_scenes import StateFileError
 from app.files.user_folders import preferences_folder
 from app.session.document import Document
 from app.session.moment import Change

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from app.files.file_access import write_file
-from app.files.mesh_formats import Report
+from app.files.mesh_formats.reading import Report
 from app.files.saved_records import SavedRecordError, read_record
 from app.files.state_arrays import array_record
 from app.files.state_models import (
@@ -88,9 +88,6 @@ def position_now(stage: StageTrace, position: int) -> int:
 
 
 # State files: what is open, and where the stepping is, saved so that it opens unchanged.
-
-
-__all__ = ["EXTENSION", "OutsideSourceError", "State", "StateFileError", "load_state", "save_state"]
 
 EXTENSION = ".rasterscope"
 SIZE_LIMIT = 1 << 30

@@ -23,8 +23,8 @@ from app.files.file_access import (
     shown_name,
     write_file,
 )
-from app.files.mesh_files import MeshFileError, OutsideMeshError, load_meshes
-from app.files.mesh_formats import Report
+from app.files.mesh_files import load_meshes
+from app.files.mesh_formats.reading import MeshFileError, OutsideMeshError, Report
 from app.files.state_arrays import (
     ARRAYS,
     CLIP_ARRAYS,

@@ -33,7 +33,7 @@ from app.views.view_space import (
     move_corner_to,
     step_marks,
 )
-from core.fast_path.workers import BandWorkers
+from core.fast_path.workers.band_workers import BandWorkers
 from core.records.arrays import Integers
 from core.records.words import counted, nouns
 from core.scene import AnyScene, Scene

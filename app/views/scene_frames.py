@@ -13,7 +13,7 @@ from PySide6.QtCore import QObject, Qt, QTimer, Signal, Slot
 
 from app.background import leave, seconds_to_end
 from core.fast_path.draw_context import Coloring, Route, Visibility
-from core.fast_path.workers import Sharing
+from core.fast_path.workers.sharing import Sharing
 from core.records.frame import StageCount
 from core.records.words import TRIANGLES, Nouns, counted, nouns
 from core.stages.declared import stage_of

@@ -12,7 +12,7 @@ from core import Settings
 from core.coverage.pixel_runs import expand, make_raster
 from core.culling.culling import plane_distances
 from core.depth.fixed_depth import SCALE
-from core.fast_path.workers import BandWorkers
+from core.fast_path.workers.band_workers import BandWorkers
 from core.framebuffer.display import Bytes, linear_light
 from core.lines.drawing import draw_lines, interpolate_line
 from core.pipeline import draw

@@ -13,17 +13,12 @@ from app.background import Freeing, Job, Progress
 from app.export.views import ViewSheet, copy_widget, export_widget
 from app.files.file_access import is_text
 from app.files.file_dialogs import SaveDialog, ask_file
-from app.files.mesh_files import EXTENSIONS, OpeningCancelledError, OutsideMeshError
+from app.files.mesh_files import OpeningCancelledError
+from app.files.mesh_formats import EXTENSIONS
+from app.files.mesh_formats.reading import OutsideMeshError
 from app.files.open_any import Opened, open_any
-from app.files.state_files import (
-    EXTENSION,
-    OutsideSourceError,
-    State,
-    StateFileError,
-    neighbour_of,
-    save_state,
-    states_beside,
-)
+from app.files.state_files import EXTENSION, State, neighbour_of, save_state, states_beside
+from app.files.state_scenes import OutsideSourceError, StateFileError
 from app.files.user_folders import preferences_folder
 from app.pages.page_bar import Pages
 from app.pages.page_table import page_endings

@@ -9,7 +9,7 @@ from PySide6.QtCore import QByteArray, QObject, Signal, Slot
 from app.files.file_dialogs import keep_folder, last_folder
 from app.files.preferences import Preferences, save_preferences, with_recent_file
 from app.files.saved_windows import Autosave
-from app.files.state_files import StateFileError
+from app.files.state_scenes import StateFileError
 from app.pages.page_bar import Page
 from app.window.appearance import DESK_THEMES
 from app.window.keys import KeyAction, KeyChoices, choices_from

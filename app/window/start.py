@@ -26,7 +26,7 @@ from app.session.document import with_settings
 from app.usage import UsageError
 from app.window.appearance import sized_theme, the_application
 from app.window.main_window import MainWindow
-from core.fast_path.workers import BandWorkers
+from core.fast_path.workers.band_workers import BandWorkers
 from core.records.words import sentences
 from core.settings import Settings
 from core.trace.run_to import START

@@ -361,6 +361,3 @@ def effective_fill(fill: str, coverage: str) -> str:
     """
     needs_float64 = "float64-edges" in table.get("fill", fill).needs
     return "bounding-box" if needs_float64 and not number_format(coverage).suits_spans else fill
-
-
-__all__ = ["blocks", "bound", "bounding_box", "brute_force", "effective_fill", "hierarchy", "incremental"]

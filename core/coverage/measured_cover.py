@@ -16,7 +16,8 @@ from core.scene import ClipScene
 from core.settings import Settings
 from core.stages.bin_and_raster import covered
 from core.stages.declared import STAGES
-from core.stages.vertices import Geometry, process_geometry
+from core.stages.geometry import Geometry
+from core.stages.vertices import process_geometry
 from core.study.case_text import clip_text, cover_text, settings_text
 from core.study.experiment import Case, Experiment
 from core.study.family import settings_of

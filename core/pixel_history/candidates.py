@@ -23,7 +23,8 @@ from core.scene import AnyScene
 from core.settings import Settings
 from core.stages.bin_and_raster import schedule
 from core.stages.declared import STAGES
-from core.stages.vertices import Geometry, process_geometry
+from core.stages.geometry import Geometry
+from core.stages.vertices import process_geometry
 from core.trace.source import TraceSource
 
 ROUNDING_REACH = 2

@@ -47,19 +47,6 @@ from core.stages.geometry import Geometry, all_projected, clipping_distances, li
 from core.stages.needs import check_edits, check_needs
 from core.transform.vertex_stage import CornerPositionsOnDemand, VertexStage, transform_vertices
 
-__all__ = [
-    "Geometry",
-    "assemble",
-    "choose_clipping",
-    "clip",
-    "corner_values",
-    "drawing_order",
-    "face",
-    "in_drawing_order",
-    "place",
-    "process_geometry",
-]
-
 
 class Before(NamedTuple):
     """What is drawn before a place of the drawing order, and after that one triangle, if any (-1: none)."""

@@ -18,7 +18,8 @@ from core.records.frame import Frame, StageCount
 from core.resolved import resolve
 from core.stages.declared import STAGES
 from core.stages.fragments import fragment_values, fragments_at, owner_of, texture_slopes
-from core.stages.vertices import Geometry, process_geometry
+from core.stages.geometry import Geometry
+from core.stages.vertices import process_geometry
 from core.trace.source import TraceSource
 
 

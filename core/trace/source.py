@@ -32,9 +32,10 @@ from core.stages.fragments import (
     surface_of,
     texture_slopes,
 )
+from core.stages.geometry import Geometry
 from core.stages.hidden_surfaces import StartBuffers, run_visibility_tests, shades
 from core.stages.needs import check_edits
-from core.stages.vertices import Before, Geometry, drawing_order, process_geometry
+from core.stages.vertices import Before, drawing_order, process_geometry
 from core.visibility.exact_case import ExactTests
 
 # How long a trace is at most: each pixel test keeps all its numbers, so some runs are too long to be kept.

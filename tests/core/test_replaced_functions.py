@@ -7,13 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.files.state_files import State, StateFileError, save_state
+from app.files.state_files import State, save_state
+from app.files.state_scenes import StateFileError
 from app.pages.step.ab.pictures import compare
 from app.pages.step.ab.side_b import settings_difference
 from app.session.document import Document, TeachingRaster
 from core import ClipScene, Settings, draw_picture, render, trace
 from core.depth.depth import WINDOW_DEPTH, DepthFormat, as_float32
-from core.fast_path.workers import BandWorkers
+from core.fast_path.workers.band_workers import BandWorkers
 from core.framebuffer.display import to_display
 from core.lines.bresenham import bresenham
 from core.methods import table

@@ -21,7 +21,7 @@ COMMAND = """
 import sys
 if __name__ == "__main__":
     from app.files.mesh_files import load_meshes
-    from core.fast_path.workers import BandWorkers
+    from core.fast_path.workers.band_workers import BandWorkers
     from lessons.scenes import make_scene
 
     assert len(load_meshes("a.obj", None, lambda: False).meshes[0].triangles) == 1

@@ -6,7 +6,8 @@ import struct
 import numpy as np
 import pytest
 
-from app.files.mesh_files import MeshFileError, load_meshes
+from app.files.mesh_files import load_meshes
+from app.files.mesh_formats.reading import MeshFileError
 from app.pages.compare.study_files import StudyFileError, load_study
 from tests.app.files.mesh_writing import SQUARE, GltfWriter, ply_text, stl_text, write
 from tests.app.files.test_earlier_files import EARLIER

@@ -13,11 +13,13 @@ from PIL import Image
 from app.cli import trace
 from app.cli.render import check_memory
 from app.files import state_scenes
-from app.files.mesh_files import MeshFileError, load_meshes
+from app.files.mesh_files import load_meshes
 from app.files.mesh_formats import gltf
+from app.files.mesh_formats.reading import MeshFileError
 from app.files.open_any import open_any
 from app.files.state_arrays import array_from, array_record
-from app.files.state_files import State, StateFileError, save_state
+from app.files.state_files import State, save_state
+from app.files.state_scenes import StateFileError
 from app.session import document, memory
 from app.session.document import open_document
 from app.session.memory import GIBI, MEBI, MemoryBoundError, Need, amounts, check_free, free_memory

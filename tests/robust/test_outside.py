@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 
 from app.files.file_access import NamedFileError, NamedFiles, OutsideError, OutsideWarning, is_network_path
-from app.files.mesh_files import MeshFileError, OutsideMeshError, load_meshes
+from app.files.mesh_files import load_meshes
+from app.files.mesh_formats.reading import MeshFileError, OutsideMeshError
 from app.files.open_any import open_any
-from app.files.state_files import OutsideSourceError, load_state, save_state
+from app.files.state_files import load_state, save_state
+from app.files.state_scenes import OutsideSourceError
 from tests.app.cli.cli_runs import refused, run_program
 from tests.app.files.mesh_writing import GltfWriter, ply_text, write, write_image
 

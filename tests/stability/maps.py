@@ -4,7 +4,8 @@ from itertools import product
 
 import numpy as np
 
-from core.study.stability import Outcome, experiments
+from core.study.record import Outcome
+from core.study.stability import experiments
 from tests.covering import is_everything
 
 

@@ -7,7 +7,8 @@ import pytest
 
 from core.interpolation.corrected_affine import largest_affine_error
 from core.interpolation.measured import HALF_TEXEL, StripCase, leaning_strip
-from core.study.stability import Outcome, experiments
+from core.study.record import Outcome
+from core.study.stability import experiments
 from tests.covering import in_turn
 
 AFFINE = experiments.get("affine-w-ratio")

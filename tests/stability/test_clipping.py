@@ -4,7 +4,8 @@ import pytest
 
 from core import Settings, render
 from core.clipping.measured import CLIPPINGS, signs_of_w
-from core.study.stability import Outcome, experiments
+from core.study.record import Outcome
+from core.study.stability import experiments
 from tests.stability.maps import is_right_everywhere, outcomes, wrong_at_random
 
 CLIP_FIRST = ("clipping=sutherland-hodgman-lecture", "clipping=sutherland-hodgman", "clipping=homogeneous")

@@ -8,7 +8,8 @@ import pytest
 from core.depth.measured import FAR, facing_walls, orthographic_walls
 from core.pipeline import render
 from core.settings import Settings
-from core.study.stability import Outcome, experiments
+from core.study.record import Outcome
+from core.study.stability import experiments
 
 BY_DISTANCE = experiments.get("z-fighting-distance")
 BY_RANGE = experiments.get("z-fighting-range")

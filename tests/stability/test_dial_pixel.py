@@ -15,7 +15,8 @@ from core.coverage.measured_formats import (
 from core.coverage.measured_pixel import FILL_RULE
 from core.coverage.measured_triangles import FORMATS, sliver
 from core.methods import table
-from core.study.stability import Outcome, StudyCancelledError, experiments
+from core.study.record import Outcome, StudyCancelledError
+from core.study.stability import experiments
 from core.study.workloads import flat_scene
 from tests.covering import is_everything
 from tests.stability.failing_cells import FAILING_CELLS

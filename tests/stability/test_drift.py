@@ -5,7 +5,8 @@ import pytest
 
 from core import draw_lines
 from core.coverage.measured_sums import long_line
-from core.study.stability import Outcome, experiments
+from core.study.record import Outcome
+from core.study.stability import experiments
 from core.trace import trace
 from tests.stability.maps import is_right_everywhere, outcomes
 

@@ -6,7 +6,8 @@ import pytest
 from core import ClipScene
 from core.scene import AnyScene
 from core.study.family import settings_of
-from core.study.stability import Outcome, experiments
+from core.study.record import Outcome
+from core.study.stability import experiments
 from core.study.stress import shrink_cell
 from tests.stability.failing_cells import FAILING_CELLS
 from tests.stability.shrunk_tests import run_test

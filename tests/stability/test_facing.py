@@ -1,6 +1,7 @@
 """Culling beside the centre: the camera's direction is no vector to the face."""
 
-from core.study.stability import Outcome, experiments
+from core.study.record import Outcome
+from core.study.stability import experiments
 from tests.stability.maps import is_right_everywhere, outcomes
 
 

@@ -6,7 +6,8 @@ import pytest
 from core.pipeline import render
 from core.settings import Settings
 from core.study.family import settings_of
-from core.study.stability import FRAGMENT_EXPERIMENTS, Axis, Outcome, experiments, stress
+from core.study.record import Axis, Outcome
+from core.study.stability import FRAGMENT_EXPERIMENTS, experiments, stress
 from tests.covering import is_everything
 
 NAMES = [experiment.info.name for experiment in FRAGMENT_EXPERIMENTS]

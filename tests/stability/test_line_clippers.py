@@ -8,7 +8,8 @@ import pytest
 from core.lines.line_clipping import clip_lines
 from core.lines.measured import clipped_ends
 from core.lines.measured_clipping import PROMISED, SIDE, judge_clip, stretch_text
-from core.study.stability import Outcome, Verdict, experiments, stress
+from core.study.record import Outcome, Verdict
+from core.study.stability import experiments, stress
 from core.trace import trace
 from tests.covering import is_everything
 from tests.stability.maps import is_right_everywhere, outcomes

@@ -8,7 +8,8 @@ from core.coverage.measured_cover import count_cover
 from core.coverage.measured_triangles import SIDE, scene_of_window, through_the_eye, uneven_grid
 from core.records.arrays import Integers
 from core.study.family import settings_of
-from core.study.stability import Outcome, experiments
+from core.study.record import Outcome
+from core.study.stability import experiments
 from core.study.workloads import on_grid, random_source
 from tests.stability.maps import is_right_everywhere, outcomes, wrong_at_random
 

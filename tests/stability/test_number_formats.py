@@ -5,7 +5,8 @@ import pytest
 from core import Settings, render
 from core.coverage.measured_cover import as_given, count_cover
 from core.coverage.measured_triangles import crowded_mesh, edge_on, sliver
-from core.study.stability import Outcome, experiments
+from core.study.record import Outcome
+from core.study.stability import experiments
 from tests.stability.maps import is_right_everywhere, outcomes, wrong_at_random
 
 NAMES = ("precision-dial", "slivers", "coordinates", "singular-matrix")

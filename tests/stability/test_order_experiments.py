@@ -7,7 +7,8 @@ import pytest
 
 from core.depth.measured_order import shuffled_layers
 from core.framebuffer.measured import ORDERS, LayersCase, layered_glass
-from core.study.stability import Outcome, experiments
+from core.study.record import Outcome
+from core.study.stability import experiments
 
 CIRCLE = experiments.get("painters-cycle")
 LAYERS = experiments.get("drawing-order")

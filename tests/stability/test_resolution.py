@@ -2,7 +2,8 @@
 
 import pytest
 
-from core.study.stability import Axis, experiments
+from core.study.record import Axis
+from core.study.stability import experiments
 from core.study.stress import axes_at
 
 

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from core.antialiasing.measured import ThinCase, needle
-from core.study.stability import Outcome, experiments
+from core.study.record import Outcome
+from core.study.stability import experiments
 
 MINIFICATION = experiments.get("minification")
 ALIASING = experiments.get("shading-aliasing")

@@ -6,7 +6,8 @@ import pytest
 from core.pipeline import render
 from core.settings import Settings
 from core.shading.measured import MATERIAL, flattened_tube, turned_normals
-from core.study.stability import Outcome, experiments
+from core.study.record import Outcome
+from core.study.stability import experiments
 from tests.stability.tube import evenly_lit
 
 HIGHLIGHT = experiments.get("lost-highlight")

@@ -10,7 +10,8 @@ from core import ClipScene, Settings
 from core.study.case_text import scene_text
 from core.study.cases import digit_count, minimize, simpler_numbers
 from core.study.experiment import SEGMENTS, TRIANGLES, first_edge, scene_of_segment
-from core.study.stability import Outcome, StudyCancelledError, Verdict, experiments
+from core.study.record import Outcome, StudyCancelledError, Verdict
+from core.study.stability import experiments
 from core.study.stress import shrink_cell
 from tests.stability.shrunk_tests import run_test, shrunk_of
 

@@ -6,9 +6,10 @@ import pytest
 from core import ClipScene, Settings
 from core.antialiasing.measured import ThinCase, needle
 from core.framebuffer.measured import LayersCase, layered_glass
-from core.study.experiment import in_clip_space
+from core.study.experiment import Experiment, in_clip_space
 from core.study.fragment_cases import NearestCase
-from core.study.stability import FRAGMENT_EXPERIMENTS, Experiment, Outcome, experiments
+from core.study.record import Outcome
+from core.study.stability import FRAGMENT_EXPERIMENTS, experiments
 from core.study.workloads import flat_scene
 
 

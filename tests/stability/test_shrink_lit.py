@@ -15,7 +15,7 @@ from core.study.experiment import (
     nearer_looks,
     with_smaller_texture,
 )
-from core.study.stability import Outcome
+from core.study.record import Outcome
 from core.textures.measured import TextureCase, textured_square
 from tests.stability.shrunk_tests import shrunk_of
 from tests.stability.tube import evenly_lit

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from core.study.families import study_family
-from core.study.record import Verdict, judged
-from core.study.stability import Outcome, stress, study_experiment
+from core.study.record import Outcome, Verdict, judged
+from core.study.stability import stress, study_experiment
 from core.study.stress import shrink_cell
 
 ANGLES = study_experiment(study_family("coverage"), ("angle",), "slivers")

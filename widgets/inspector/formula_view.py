@@ -26,8 +26,6 @@ from widgets.basics.theme import current_theme, theme_notifier
 from widgets.inspector.formula_layout import MARGIN, FormulaNumber, FormulaSetter, Line, extent, number_at
 from widgets.inspector.typesetter import Typesetter, is_typesetter_loaded, load_typesetter
 
-__all__ = ["Formula", "FormulaView"]
-
 _SHARED = Typesetter()
 
 

@@ -325,9 +325,6 @@ class ValueHeader(QWidget):
 
 # Everything that happened to one pixel: the verdict, then each event with before, out, after and reason.
 
-
-__all__ = ["HistoryEntry", "PixelHistory", "PixelStory", "PixelValue"]
-
 HINT = "Point at a pixel, or click one, to see its history."
 """What an empty pane is for."""
 

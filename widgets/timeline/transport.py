@@ -15,8 +15,6 @@ from widgets.timeline.bar import TimelineBar
 from widgets.timeline.chapters import ChapterRow
 from widgets.timeline.run_picture import TimelineRun
 
-__all__ = ["SPEEDS", "Timeline", "TimelineRun"]
-
 SPEEDS = (1.0, 2.0, 4.0, 10.0, 30.0, 60.0)
 """Steps a second that can be chosen."""
 

@@ -19,10 +19,8 @@ from app.files.mesh_formats.ply import read_ply
 from app.files.mesh_formats.reading import (
     LoadedMeshes,
     MeshFileError,
-    OutsideMeshError,
     Reader,
     Report,
-    Wires,
     check_positions,
 )
 from app.files.mesh_formats.stl import read_stl
@@ -59,18 +57,6 @@ WARNINGS = 20
 
 TOGETHER = 4096
 """Triangles looked at together: nearly always some of the first have an area."""
-
-__all__ = [
-    "EXTENSIONS",
-    "READERS",
-    "LoadedMeshes",
-    "MeshFileError",
-    "OutsideMeshError",
-    "Reader",
-    "Report",
-    "Wires",
-    "read_file",
-]
 
 
 def read_file(path: Path, report: Report, allows_outside: bool = False) -> LoadedMeshes:

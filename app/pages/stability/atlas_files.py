@@ -19,7 +19,8 @@ from app.files.state_models import Count, Record
 from app.pages.stability.records import atlas_record, has_curves, severity_chart
 from app.pages.words import machine_words
 from core.records.arrays import Floats
-from core.study.stability import Atlas, Axis, ExperimentInfo, Outcome, StabilityMap
+from core.study.cases import Atlas, ExperimentInfo, StabilityMap
+from core.study.record import Axis, Outcome
 from widgets.experiments.map_view import AtlasView
 
 # An atlas that was saved as JSON opens again: it shows the runs of the day it was made.

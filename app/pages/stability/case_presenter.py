@@ -14,7 +14,7 @@ from core.coverage.measured_pixel import DialReading
 from core.explain.number_text import number_text
 from core.records.words import numbered
 from core.scene import ClipScene
-from core.study.stability import StudyCancelledError
+from core.study.record import StudyCancelledError
 from widgets.experiments.case_pictures import CaseView, DialRow
 
 # One pixel in every number format, in words: the rows of the table, and the sentence above it.

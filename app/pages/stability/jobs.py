@@ -11,9 +11,11 @@ from core.coverage.measured_cover import CoverageExperiment, Wanted, as_given, o
 from core.records.words import counted
 from core.scene import AnyScene
 from core.settings import Settings
+from core.study.cases import Atlas, ExperimentInfo
+from core.study.experiment import Experiment
 from core.study.fragment_cases import NAME as OPEN_SCENE
-from core.study.record import Opening, machine
-from core.study.stability import Atlas, Axis, Experiment, ExperimentInfo, Verdict, experiments, stress
+from core.study.record import Axis, Opening, Verdict, machine
+from core.study.stability import experiments, stress
 from core.study.stress import Shrunk, axes_at, shrink_cell
 from widgets.experiments.controls import FamilyEntry
 from widgets.experiments.maps import CellPlace

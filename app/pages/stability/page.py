@@ -33,9 +33,9 @@ from app.pages.stability.records import (
 )
 from app.session.moment import Change
 from app.session.session import Session
+from core.study.cases import Atlas, ExperimentInfo
 from core.study.fragment_cases import NAME as OPEN_SCENE
 from core.study.fragment_cases import watertightness
-from core.study.stability import Atlas, ExperimentInfo
 from widgets.basics.accessibility import announce
 from widgets.basics.controls import row_layout
 from widgets.experiments.case_pictures import CaseView

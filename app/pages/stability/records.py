@@ -16,8 +16,8 @@ from core.explain.stage_texts import family_title
 from core.framebuffer.display import to_display
 from core.records.words import counted
 from core.scene import ClipScene
-from core.study.record import Opening
-from core.study.stability import Atlas, Axis, ExperimentInfo, Outcome, StabilityMap, Verdict
+from core.study.cases import Atlas, ExperimentInfo, StabilityMap
+from core.study.record import Axis, Opening, Outcome, Verdict
 from widgets.experiments.case_pictures import CaseRecord
 from widgets.experiments.maps import UNKNOWN, AtlasAxis, AtlasMap, AtlasRecord, CellKind, CellPlace
 from widgets.experiments.series import ChartAxis, ChartEmpty, ChartPicture, ChartSeries

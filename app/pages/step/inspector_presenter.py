@@ -16,7 +16,7 @@ from app.session.moment import Moment, Step, stage_for
 from app.session.session import Session
 from app.session.tracing import QUICK_SECONDS
 from core import STAGES, Trace
-from core.explain.records import Variable
+from core.explain.records import Formula, Variable
 from core.explain.stage_texts import initial_sentence, stage_card, summary_sentence
 from core.explain.steps import formula, load_subjects, remarks, row_sentence, sentence, variables
 from core.records.listing import Listing
@@ -27,7 +27,7 @@ from core.trace.origins import Origin, origin
 from core.trace.stage_trace import Explanation
 from core.trace.tracers import load_tracers
 from widgets.inspector.formula_layout import FormulaNumber
-from widgets.inspector.formula_view import Formula, FormulaView
+from widgets.inspector.formula_view import FormulaView
 from widgets.inspector.listing import HINT, ListingText
 from widgets.inspector.pixel_history import HINT as NO_HISTORY
 

@@ -7,8 +7,3 @@ What a pixel shows does not depend on the band it is drawn in, so the picture is
 
 Not imported by ``core`` itself: whoever wants more than one core asks for it.
 """
-
-from core.fast_path.workers.band_workers import BandWorkers
-from core.fast_path.workers.sharing import BandTime, Sharing
-
-__all__ = ["BandTime", "BandWorkers", "Sharing"]

@@ -22,7 +22,7 @@ from app.bench.records import (
 from app.bench.reference import Difference, compare, make_reference
 from app.bench.workloads import TO_LIGHT, textured_floor, viewed
 from app.opengl_check.cases import icosphere
-from core.fast_path.workers import Sharing
+from core.fast_path.workers.sharing import Sharing
 from core.scene import Camera
 from core.transform.matrices import projection, world_to_camera
 from lessons import shapes

@@ -10,7 +10,8 @@ import pytest
 from PIL import Image
 
 from app.pages.stability.atlas_files import atlas_json
-from core.study.stability import Axis, experiments, stress
+from core.study.record import Axis
+from core.study.stability import experiments, stress
 from tests.app.cli.cli_runs import ROOT, refused
 
 NO_DISPLAY = {"DISPLAY": "", "WAYLAND_DISPLAY": "", "QT_QPA_PLATFORM": ""}

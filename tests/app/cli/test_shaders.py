@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from app.files.open_any import open_any
-from app.files.state_files import State, StateFileError, load_state
+from app.files.state_files import State, load_state
+from app.files.state_scenes import StateFileError
 from core import render
 from core.shaders.presets import PRESETS, TASK_FRAGMENT, TASK_VERTEX, preset_program
 from core.shaders.record import ShaderProgram

@@ -11,7 +11,8 @@ from pytestqt.qtbot import QtBot
 from app.pages.stability.atlas_files import AtlasFileError, atlas_json, load_atlas
 from app.pages.stability.page import StabilityPage
 from app.window.main_window import MainWindow
-from core.study.stability import Axis, experiments, stress
+from core.study.record import Axis
+from core.study.stability import experiments, stress
 from tests.app.pages.stability.stability_pages import (
     EXCLUSIVE,
     click,

@@ -7,7 +7,8 @@ from dataclasses import replace
 import pytest
 
 from app.files.open_any import open_any
-from app.files.state_files import EXTENSION, State, StateFileError, load_state, save_state
+from app.files.state_files import EXTENSION, State, load_state, save_state
+from app.files.state_scenes import StateFileError
 from app.session.document import Document, TeachingRaster
 from core import Settings
 from lessons.scenes import make_scene

@@ -6,8 +6,9 @@ from dataclasses import replace
 
 import pytest
 
-from app.files.state_files import EXTENSION, State, StateFileError, load_state, save_state
+from app.files.state_files import EXTENSION, State, load_state, save_state
 from app.files.state_models import DraftRecord, Look
+from app.files.state_scenes import StateFileError
 from app.session.document import Document, TeachingRaster
 from core import Settings, render
 from core.edits.edit import Edit, apply_edit, edits_of, original

@@ -11,15 +11,9 @@ import numpy as np
 import pytest
 
 from app.files import file_access, mesh_files
-from app.files.mesh_files import (
-    EXTENSIONS,
-    MeshFileError,
-    OpeningCancelledError,
-    frame_meshes,
-    load_meshes,
-    open_mesh,
-)
-from app.files.mesh_formats import obj, reading
+from app.files.mesh_files import OpeningCancelledError, frame_meshes, load_meshes, open_mesh
+from app.files.mesh_formats import EXTENSIONS, obj, reading
+from app.files.mesh_formats.reading import MeshFileError
 from core.scene import Mesh
 from core.transform.vertex_stage import transform_vertices
 from lessons.shapes import cube, knot, torus

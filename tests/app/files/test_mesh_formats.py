@@ -11,8 +11,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
-from app.files.mesh_files import MeshFileError, load_meshes
-from app.files.mesh_formats.reading import fan, share_vertices
+from app.files.mesh_files import load_meshes
+from app.files.mesh_formats.reading import MeshFileError, fan, share_vertices
 from core.framebuffer.display import linear_light
 from tests.app.files.mesh_writing import (
     GltfWriter,

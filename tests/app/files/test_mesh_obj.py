@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from app.files.mesh_files import MeshFileError, load_meshes
+from app.files.mesh_files import load_meshes
+from app.files.mesh_formats.reading import MeshFileError
 from core.framebuffer.display import linear_light
 from tests.app.files.mesh_writing import SQUARE, write, write_image
 

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from app.files.file_access import FileWriteError
 from app.files.open_any import open_any
 from app.files.state_arrays import READABLE_COUNT, array_record
-from app.files.state_files import EXTENSION, State, StateFileError, load_state, readable_json, save_state
+from app.files.state_files import EXTENSION, State, load_state, readable_json, save_state
+from app.files.state_scenes import StateFileError
 from app.session.document import open_document
 from lessons.scenes import make_scene, scene_names
 from tests.app.files.states import again, assert_same, characters, states

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from app.files.open_any import open_any
-from app.files.state_files import EXTENSION, State, StateFileError, load_state, save_state
+from app.files.state_files import EXTENSION, State, load_state, save_state
 from app.files.state_models import Bookmark
+from app.files.state_scenes import StateFileError
 from core.scene import Material, PointLight
 from tests.app.files.mesh_writing import SQUARE, write, write_image
 from tests.app.files.states import EVERYTHING, again, assert_same

@@ -5,7 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.files.mesh_files import MeshFileError, load_meshes, open_mesh
+from app.files.mesh_files import load_meshes, open_mesh
+from app.files.mesh_formats.reading import MeshFileError
 from app.files.open_any import open_any
 from core import render
 from tests.app.files.mesh_writing import CIRCLE, INSERT, POLYLINE, SEGMENT, dxf_text, write

@@ -9,7 +9,7 @@ from app.session.document import open_document
 from app.views.scene_picture import FEWEST, DrawnScene, HiddenBacks, SceneShot, draw_scene
 from app.views.view_space import make_space, viewing_camera
 from core import Camera, Scene
-from core.fast_path.workers import BandWorkers
+from core.fast_path.workers.band_workers import BandWorkers
 from core.transform.vertex_stage import transform_vertices
 from lessons.scenes import make_scene
 from lessons.shapes import cube, torus

@@ -36,7 +36,8 @@ from core import STAGES, Settings, render
 from core.culling.culling import plane_distances
 from core.fast_path.draw import draw_picture
 from core.fast_path.draw_context import Coloring, Route, Split, Visibility
-from core.fast_path.workers import BandTime, BandWorkers, Sharing
+from core.fast_path.workers.band_workers import BandWorkers
+from core.fast_path.workers.sharing import BandTime, Sharing
 from core.records.frame import StageCount
 from core.transform.vertex_stage import transform_vertices
 from lessons.scenes import make_scene

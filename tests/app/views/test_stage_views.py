@@ -17,7 +17,7 @@ from app.views.stage_views import StageViews
 from app.views.texture_footprint import no_texture_reason
 from app.views.view_space import make_space, step_marks, thinned, viewed_scene, viewing_camera
 from core import Settings, render
-from core.fast_path.workers import BandWorkers
+from core.fast_path.workers.band_workers import BandWorkers
 from core.transform.vertex_stage import transform_vertices
 from lessons.scenes import make_scene
 from tests.app.views.following import Following

@@ -14,7 +14,8 @@ from core.culling.object_culling import OUTSIDE, ViewPlanes, box_against_planes,
 from core.methods import table
 from core.records.frame import StageCount
 from core.scene import Camera, Mesh, Scene
-from core.stages.vertices import Geometry, process_geometry
+from core.stages.geometry import Geometry
+from core.stages.vertices import process_geometry
 from core.transform.vertex_stage import transform_vertices
 from lessons.scenes import make_scene
 from lessons.shapes import cube

@@ -8,7 +8,7 @@ import pytest
 from core import STAGES, ClipScene, Settings, render
 from core.fast_path.draw import draw_picture
 from core.fast_path.draw_context import Coloring, Visibility
-from core.fast_path.workers import BandWorkers
+from core.fast_path.workers.band_workers import BandWorkers
 from core.fast_path.workers.sharing import COLOR, FRAGMENT
 from lessons.scenes import make_scene
 from tests.covering import in_turns

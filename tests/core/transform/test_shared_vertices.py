@@ -14,7 +14,8 @@ from core.records.frame import StageCount
 from core.shading.lighting import light_surface
 from core.shading.shading import centroids
 from core.stages.declared import STAGES
-from core.stages.vertices import Geometry, process_geometry
+from core.stages.geometry import Geometry
+from core.stages.vertices import process_geometry
 from core.transform.matrices import rotation
 from core.transform.vertex_stage import place_meshes, transform_vertices
 from tests.core.shading.seen_sides import is_seen_from_behind

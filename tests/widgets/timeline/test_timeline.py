@@ -11,8 +11,8 @@ from tests.widgets.showing import shown
 from widgets.basics.drawing import Mark
 from widgets.basics.theme import current_theme
 from widgets.timeline.bar import TimelineBar
-from widgets.timeline.run_picture import column_counts, flag_height, lane_height
-from widgets.timeline.transport import SPEEDS, Timeline, TimelineRun
+from widgets.timeline.run_picture import TimelineRun, column_counts, flag_height, lane_height
+from widgets.timeline.transport import SPEEDS, Timeline
 
 RUN = TimelineRun(
     512,

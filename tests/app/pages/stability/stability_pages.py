@@ -6,7 +6,7 @@ from pytestqt.qtbot import QtBot
 
 from app.pages.stability.page import StabilityPage
 from app.window.main_window import MainWindow
-from core.study.stability import Atlas
+from core.study.cases import Atlas
 from core.study.stress import Shrunk
 from widgets.experiments.maps import CellPlace
 

@@ -11,7 +11,8 @@ from app.pages.stability.atlas_files import atlas_sheet
 from app.pages.stability.page import StabilityPage
 from app.pages.stability.records import BELOW_ZERO, NOTHING_RUN, severity_chart
 from app.window.main_window import MainWindow
-from core.study.stability import Atlas, Axis, ExperimentInfo, Outcome, StabilityMap
+from core.study.cases import Atlas, ExperimentInfo, StabilityMap
+from core.study.record import Axis, Outcome
 from widgets.basics.theme import LIGHT, paint_as
 from widgets.experiments.chart import Chart
 from widgets.experiments.maps import CellPlace

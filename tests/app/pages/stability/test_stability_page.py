@@ -16,7 +16,8 @@ from app.pages.stability.jobs import run_grid
 from app.pages.stability.page import StabilityPage
 from app.window.main_window import MainWindow
 from core.study.fragment_cases import NAME as OPEN_SCENE
-from core.study.stability import Axis, Outcome, experiments, stress
+from core.study.record import Axis, Outcome
+from core.study.stability import experiments, stress
 from core.study.stress import axes_at
 from tests.app.pages.stability.stability_pages import (
     EXCLUSIVE,

@@ -12,7 +12,8 @@ from app.export.failures import MARKS, WORDS, atlas_text
 from app.export.sheet import sheet_bytes
 from app.files.state_files import load_state
 from app.pages.stability.atlas_files import atlas_csv, atlas_json, atlas_sheet
-from core.study.stability import Axis, Outcome, experiments, stress
+from core.study.record import Axis, Outcome
+from core.study.stability import experiments, stress
 from tests.app.cli.cli_runs import refused, run_program
 
 QUICK = (Axis("offset", "Distance of the centre from the edge", "pixels", (2.0**-12, 2.0**-4), True),)

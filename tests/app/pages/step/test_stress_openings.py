@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from app.session.document import document_at
-from core.study.stability import COVERAGE_EXPERIMENTS, Outcome, experiments
+from core.study.record import Outcome
+from core.study.stability import COVERAGE_EXPERIMENTS, experiments
 
 CASES = [
     pytest.param(experiment.info.name, method, marks=marks)

@@ -10,7 +10,7 @@ import pytest
 
 from core import Camera, draw_picture
 from core.fast_path.draw_context import Route
-from core.fast_path.workers import BandWorkers
+from core.fast_path.workers.band_workers import BandWorkers
 from core.fast_path.workers.sharing import have_colors_of_whole, joined_route
 from tests.core.fast_path.band_scenes import SCENES, SPANS, ball, textured_ball
 from tests.covering import in_turn

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from core import Mesh, draw_picture
-from core.fast_path.workers import BandWorkers
+from core.fast_path.workers.band_workers import BandWorkers
 from core.fast_path.workers.worker import memory_prefix
 from tests.core.fast_path.band_scenes import SPANS, ball
 
@@ -166,7 +166,7 @@ def test_workers_that_nobody_holds_any_more_end() -> None:
 PROGRAM = """
     import numpy as np
     from core import Camera, Mesh, Scene, Settings
-    from core.fast_path.workers import BandWorkers
+    from core.fast_path.workers.band_workers import BandWorkers
 
     print("main part", flush=True)
     corners = np.array([[-1.0, -1, 0], [1, -1, 0], [0, 1, 0]])

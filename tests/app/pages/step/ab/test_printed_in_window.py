@@ -8,7 +8,8 @@ import pytest
 from PySide6.QtWidgets import QPushButton
 
 from app.files.open_any import open_any
-from app.files.state_files import State, StateFileError, load_state, save_state
+from app.files.state_files import State, load_state, save_state
+from app.files.state_scenes import StateFileError
 from app.help.reference import method_page
 from app.pages.step.kept_look import look_of, show_look
 from app.session.listing_runs import runnable
