@@ -91,11 +91,16 @@ class Job(QObject):
     ended = Signal()
     """Done, failed or cancelled."""
 
-    def __init__(self, parent: QObject | None = None, expected: Expected = (ValueError, MemoryError)) -> None:
+    def __init__(
+        self, parent: QObject | None = None, expected: Expected = (ValueError, MemoryError), **told: Any
+    ) -> None:
+        """Do nothing yet; ``told``: by the name of a signal, what it is connected with."""
         super().__init__(parent)
         self._expected = expected
         self._worker: _Worker | None = None
         self._retired: list[_Worker] = []
+        for name, receiver in told.items():
+            getattr(self, name).connect(receiver)
 
     @property
     def is_running(self) -> bool:

@@ -56,9 +56,8 @@ class KeptResults(QObject):
         super().__init__(parent)
         self._kind, self._load = kind, load
         self._has_begun = False
-        self._reading, self._writing = (Job(self, (OSError, ValueError)) for _ in range(2))
-        self._reading.part_done.connect(self._take)
-        self._reading.succeeded.connect(self._tell_unread)
+        self._reading = Job(self, (OSError, ValueError), part_done=self._take, succeeded=self._tell_unread)
+        self._writing = Job(self, (OSError, ValueError))
         for job in (self._reading, self._writing):
             job.failed.connect(self._tell)
 
@@ -204,9 +203,7 @@ class UnfinishedFile(QObject):
         """Learners and exercises whose answers this window has changed; the rest is left to other windows."""
         self._has_failed = self._is_dirty = self._is_foreign = False
         """The last: the file is of a later version, and is left alone."""
-        self._job = Job(self, expected=(OSError,))
-        self._job.succeeded.connect(self._succeed)
-        self._job.failed.connect(self._fail)
+        self._job = Job(self, (OSError,), succeeded=self._succeed, failed=self._fail)
         self._timer = QTimer(self, singleShot=True, interval=PAUSE)
         self._timer.timeout.connect(self._save)
 

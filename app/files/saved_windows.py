@@ -176,9 +176,8 @@ class Autosave(QObject):
         self._file: WindowFile | None = None
         self._stand_in: Document | None = None
         self._has_failed = self._is_finished = False
-        self._job = Job(self, expected=(OSError, StateFileError, MemoryError))
-        self._job.succeeded.connect(self._succeed)
-        self._job.failed.connect(self._fail)
+        expected = (OSError, StateFileError, MemoryError)
+        self._job = Job(self, expected, succeeded=self._succeed, failed=self._fail)
         self._waits = QElapsedTimer()
         """Since the first edit that is not saved."""
         self._timer = QTimer(self, singleShot=True)

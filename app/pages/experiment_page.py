@@ -45,13 +45,10 @@ class ExperimentPage(Page):
         self._told: Progress | None = None
         self.place = ElidedLabel(self)
         self.place.hide()
-        self.work = Job(self)
-        """Gives parts of a result as they are done, and the result in the end."""
+        self.work = Job(self, part_done=self._take_part, succeeded=self._take_result, failed=self._fail)
         self.work.progressed.connect(self._follow_work)
-        self.work.part_done.connect(self._take_part)
-        self.work.succeeded.connect(self._take_result)
-        self.work.failed.connect(self._fail)
         self.work.ended.connect(self._end)
+        """Gives parts of a result as they are done, and the result in the end."""
 
     def lay_out(
         self, left: QWidget, above: Sequence[tuple[QWidget, int]], below: QWidget, spacing: int = 4
@@ -289,11 +286,8 @@ class OpenedPictures(QObject):
         super().__init__(page)
         self._view, self._page = view, page
         self._drawn: DrawnPictures | None = None
-        self.drawing, self._searching = Job(self), Job(self)
-        self.drawing.succeeded.connect(self._show)
-        self.drawing.failed.connect(self._show_failure)
-        self._searching.succeeded.connect(self._take_divergence)
-        self._searching.failed.connect(self._tell_no_divergence)
+        self.drawing = Job(self, succeeded=self._show, failed=self._show_failure)
+        self._searching = Job(self, succeeded=self._take_divergence, failed=self._tell_no_divergence)
         view.step_requested.connect(self.step)
         view.divergence_requested.connect(self.step_to_divergence)
         view.copy_requested.connect(self.copy)

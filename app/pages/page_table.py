@@ -37,9 +37,7 @@ class StepOpening(QObject):
     def __init__(self, session: Session, page: StepPage, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._session, self._page = session, page
-        self.job = Job(self)
-        self.job.succeeded.connect(self._show)
-        self.job.failed.connect(self._refuse)
+        self.job = Job(self, succeeded=self._show, failed=self._refuse)
 
     @Slot(object)
     def open_request(self, request: StepRequest) -> None:

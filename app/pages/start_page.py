@@ -75,8 +75,7 @@ class StartPage(Page):
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self._job = Job(self, expected=())
-        self._job.part_done.connect(self._show_picture)
+        self._job = Job(self, (), part_done=self._show_picture)
         self._painted = QTimer(self)
         """Runs until the page that is shown is painted."""
         self._painted.setSingleShot(True)

@@ -83,12 +83,11 @@ class Tracing(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._job = Job(self, expected=(Exception,))
+        self._job = Job(
+            self, (Exception,), succeeded=self._succeed, failed=self._fail, progressed=self.progressed
+        )
         self._waiting: Order | None = None
         self._newest: Order | None = None
-        self._job.succeeded.connect(self._succeed)
-        self._job.failed.connect(self._fail)
-        self._job.progressed.connect(self.progressed)
 
     @property
     def is_busy(self) -> bool:

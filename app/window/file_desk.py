@@ -248,13 +248,16 @@ class FileActions(QObject):
         """The file that is shown, absolute, or the name of the scene; empty: what the window began with."""
         self.state_path = ""
         """The state that was opened or saved last, absolute; empty: none. The states beside it come next."""
-        self.job = Job(self, expected=(OpeningCancelledError, ValueError, OSError, MemoryError))
+        self.job = Job(
+            self,
+            (OpeningCancelledError, ValueError, OSError, MemoryError),
+            succeeded=self._show_result,
+            failed=self._tell_failed,
+        )
         self.progress = WorkProgress(self.job, page.session.tracing, messages, self)
         self.freeing = Freeing(self)
         page.session.tracing.traced.connect(self.freeing.ask)
         self.progress.opening_cancelled.connect(self._tell_cancelled)
-        self.job.succeeded.connect(self._show_result)
-        self.job.failed.connect(self._tell_failed)
 
     def _tell(
         self, text: str, kind: MessageKind = MessageKind.INFORMATION, details: str = "", action: str = ""

@@ -74,11 +74,8 @@ class CataloguePresenter(QObject):
         self._current = ""
         self._shown: list[str] = []
         """Names of all exercises in the order of the catalogue."""
-        self._reading, self._choosing = (Job(self, expected=(OSError, ValueError)) for _ in range(2))
-        self._reading.succeeded.connect(self._take_found)
-        self._reading.failed.connect(self._refuse)
-        self._choosing.succeeded.connect(self._take_choice)
-        self._choosing.failed.connect(self._refuse)
+        self._reading = Job(self, (OSError, ValueError), succeeded=self._take_found, failed=self._refuse)
+        self._choosing = Job(self, (OSError, ValueError), succeeded=self._take_choice, failed=self._refuse)
         view.exercise_chosen.connect(self._open)
         view.line_entered.connect(self.open_line)
         self.question_chosen.connect(self._forget_next)
@@ -308,9 +305,8 @@ class ProgressPresenter(QObject):
         super().__init__(page)
         self._view, self._page = view, page
         self._user = ""
-        self.job = Job(self, expected=(OSError, ValueError, MemoryError))
-        self.job.succeeded.connect(self._take_imported)
-        self.job.failed.connect(self._refuse_import)
+        expected = (OSError, ValueError, MemoryError)
+        self.job = Job(self, expected, succeeded=self._take_imported, failed=self._refuse_import)
         view.user_chosen.connect(self._choose_user)
         view.export_requested.connect(self._export)
         view.import_requested.connect(self._import)

@@ -68,9 +68,7 @@ class DiagnosisPresenter(QObject):
         super().__init__(page)
         self._session, self._view, self._page = session, view, page
         self._diagnosed: _Diagnosed | None = None
-        self.job = Job(self, expected=(OSError, ValueError, MemoryError))
-        self.job.succeeded.connect(self._show)
-        self.job.failed.connect(self._refuse)
+        self.job = Job(self, (OSError, ValueError, MemoryError), succeeded=self._show, failed=self._refuse)
         view.open_requested.connect(self.ask_picture)
         view.run_requested.connect(self._show_run)
         session.changed.connect(self._hide_asked)

@@ -81,18 +81,14 @@ class QuestionPresenter(QObject):
         self._history = AnswerHistory(grid, self)
         self._begun = monotonic()
         self.evidence = Evidence(view, grid, page)
-        self._asking, self._checking, self._drawing, self._trying = (Job(self) for _ in range(4))
+        self._asking = Job(self, succeeded=self._show, failed=self._refuse)
+        self._checking = Job(self, succeeded=self._show_checked, failed=self._not_checked)
+        self._drawing = Job(self, succeeded=self._show_live, failed=self._refuse)
+        self._trying = Job(self, succeeded=self._show_tried)
         self._waiting: list[Callable[[], None]] = []
         """What ends this question, and was wanted while its answer was being checked."""
-        self._asking.succeeded.connect(self._show)
-        self._asking.failed.connect(self._refuse)
         # Queued: the verdict is shown first.
         self._checking.ended.connect(self._go_on, Qt.ConnectionType.QueuedConnection)
-        self._checking.succeeded.connect(self._show_checked)
-        self._checking.failed.connect(self._not_checked)
-        self._drawing.succeeded.connect(self._show_live)
-        self._drawing.failed.connect(self._refuse)
-        self._trying.succeeded.connect(self._show_tried)
         view.check_requested.connect(self.check)
         view.hint_requested.connect(self.show_hint)
         view.variant_requested.connect(self.ask_variant)

@@ -77,9 +77,7 @@ class LessonsPresenter(QObject):
         self._view = view
         self._shown: LessonsShown | None = None
         self._is_by_stage = False
-        self.job = Job(self, expected=(OSError, ValueError))
-        self.job.succeeded.connect(self._take)
-        self.job.failed.connect(self._refuse)
+        self.job = Job(self, (OSError, ValueError), succeeded=self._take, failed=self._refuse)
         view.lesson_chosen.connect(self._open)
         view.order_chosen.connect(self._choose_order)
 

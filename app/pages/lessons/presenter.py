@@ -66,12 +66,8 @@ class LessonPresenter(QObject):
         """How far each lesson is, by its name and the user, since the program was started."""
         self._course: Course | None = None
         """The lessons that can be opened; ``None``: they were not read yet."""
-        self._reading = Job(self, expected=(ValueError, OSError))
-        self._reading.succeeded.connect(self._list)
-        self._reading.failed.connect(self._refuse_list)
-        self._job = Job(self, expected=(ValueError, OSError, MemoryError))
-        self._job.succeeded.connect(self._begin)
-        self._job.failed.connect(self._refuse)
+        self._reading = Job(self, (ValueError, OSError), succeeded=self._list, failed=self._refuse_list)
+        self._job = Job(self, (ValueError, OSError, MemoryError), succeeded=self._begin, failed=self._refuse)
         self._wanted: tuple[Lesson | str, int | None] | None = None
         """What is opened once the window is painted."""
         self._painted = QTimer(self, singleShot=True, interval=FIRST_MS)

@@ -120,11 +120,9 @@ class LessonAnswers(QObject):
         self.wrong_count = 0
         self._left_out: object = None
         self._begun = monotonic()
-        self._judging, self._drawing, self._trying = Job(self), Job(self), Job(self)
-        self._judging.succeeded.connect(self._show_judged)
-        self._judging.failed.connect(self._show_not_checked)
-        self._drawing.succeeded.connect(self._show_live)
-        self._trying.succeeded.connect(self._show_tried)
+        self._judging = Job(self, succeeded=self._show_judged, failed=self._show_not_checked)
+        self._drawing = Job(self, succeeded=self._show_live)
+        self._trying = Job(self, succeeded=self._show_tried)
         view.check_requested.connect(self.check)
         view.answer_changed.connect(self._follow_answer)
 
@@ -333,9 +331,7 @@ class LessonAttempts(QObject):
         super().__init__(parent)
         self.user = DEFAULT_USER
         self._waiting: list[Attempt] = []
-        self._job = Job(self, expected=(OSError,))
-        self._job.succeeded.connect(self._go_on)
-        self._job.failed.connect(self._fail)
+        self._job = Job(self, (OSError,), succeeded=self._go_on, failed=self._fail)
 
     @property
     def is_working(self) -> bool:

@@ -178,11 +178,8 @@ class LessonStates(QObject):
         self._alone = Lock()
         """Held while a state is traced: who wants what is being prepared takes that."""
         self._show: Callable[[OpenState], None] | None = None
-        self._wanting, self._preparing = Job(self), Job(self)
-        self._wanting.succeeded.connect(self._take)
-        self._wanting.failed.connect(self.refused)
-        self._preparing.succeeded.connect(self._look_at)
-        self._preparing.failed.connect(self._leave_out)
+        self._wanting = Job(self, succeeded=self._take, failed=self.refused)
+        self._preparing = Job(self, succeeded=self._look_at, failed=self._leave_out)
 
     @property
     def is_working(self) -> bool:
@@ -353,8 +350,7 @@ class LessonWatch(QObject):
         self._is_done = self._is_tried = False
         self._is_stale = False
         """Whether something has changed since the look that is being taken."""
-        self._job = Job(self)
-        self._job.succeeded.connect(self._take)
+        self._job = Job(self, succeeded=self._take)
         session.changed.connect(self._follow)
 
     def begin(self, until: "UntilPart") -> None:

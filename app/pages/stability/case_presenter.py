@@ -116,14 +116,10 @@ class CasePresenter(QObject):
         self.found: CaseFound | None = None
         """The case that is shown, as it was run or made small."""
         self._steps_when_found = False
-        self._looking, self._reading = Job(self), Job(self)
-        self._shrinking = Job(self, (ValueError, MemoryError, StudyCancelledError))
-        self._looking.succeeded.connect(self._show_case)
-        self._looking.failed.connect(self._show_failure)
-        self._shrinking.succeeded.connect(self._show_shrunk)
-        self._shrinking.failed.connect(self._tell_no_shrinking)
-        self._reading.succeeded.connect(self._show_dial)
-        self._reading.failed.connect(self._tell_no_dial)
+        self._looking = Job(self, succeeded=self._show_case, failed=self._show_failure)
+        self._reading = Job(self, succeeded=self._show_dial, failed=self._tell_no_dial)
+        expected = (ValueError, MemoryError, StudyCancelledError)
+        self._shrinking = Job(self, expected, succeeded=self._show_shrunk, failed=self._tell_no_shrinking)
         view.pixel_pinned.connect(self._read_dial)
         view.step_requested.connect(self.step)
         view.shrink_requested.connect(self.shrink)

@@ -27,10 +27,8 @@ class ListingOutcome(QObject):
     ) -> None:
         super().__init__(page)
         self._session, self._comparing, self._pane, self._page = session, comparing, pane, page
-        self._naming = Job(self)
+        self._naming = Job(self, succeeded=self._name_mistake, failed=self._leave_unnamed)
         """Looks for the mistake that an edit is."""
-        self._naming.succeeded.connect(self._name_mistake)
-        self._naming.failed.connect(self._leave_unnamed)
         pane.link_clicked.connect(self._follow_link)
 
     def tell(self) -> None:

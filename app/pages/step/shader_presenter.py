@@ -166,9 +166,7 @@ class ShaderPresenter(QObject):
         pane.comparison_chosen.connect(self._compare)
         pane.lanes_chosen.connect(self._choose_lanes)
         pane.left.connect(self.leave)
-        self._job = Job(self)
-        self._job.succeeded.connect(self._take)
-        self._job.failed.connect(self._refuse)
+        self._job = Job(self, succeeded=self._take, failed=self._refuse)
         self._make: Make | None = None
         self._own: ShaderProgram | None = None
         """The shaders that the user has typed or chosen last."""

@@ -29,9 +29,7 @@ class Meeting(QObject):
     def __init__(self, comparing: "ComparePresenter", session: Session, page: Page) -> None:
         super().__init__(comparing)
         self._comparing, self._session, self._page = comparing, session, page
-        self._search = Job(self)
-        self._search.succeeded.connect(self._land)
-        self._search.failed.connect(self._tell_no_divergence)
+        self._search = Job(self, succeeded=self._land, failed=self._tell_no_divergence)
 
     @property
     def is_searching(self) -> bool:

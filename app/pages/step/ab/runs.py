@@ -31,9 +31,7 @@ class BoundedRun(QObject):
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
-        self._job = Job(self)
-        self._job.succeeded.connect(self.done)
-        self._job.failed.connect(self.failed)
+        self._job = Job(self, succeeded=self.done, failed=self.failed)
 
     def do(self, work: Callable[[], Any], *, is_long: bool = False) -> None:
         """Begin work that runs typed texts; what ``is_long`` goes to the background at once."""
@@ -152,11 +150,9 @@ class DrawnB(QObject):
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
-        self._job, self._bounded = Job(self), BoundedRun(self)
-        self._job.succeeded.connect(self.drawn)
-        self._job.failed.connect(self.failed)
+        self._job = Job(self, succeeded=self.drawn, failed=self.failed)
+        self._bounded = BoundedRun(self)
         self._bounded.done.connect(self.drawn)
-        self._bounded.failed.connect(self.failed)
 
     def draw(self, other: Document, stage: str, *, is_typed: bool) -> None:
         """Draw a document up to a stage; `drawn` or `failed` follows, before this returns where it is quick."""
