@@ -8,13 +8,12 @@ import numpy as np
 
 from core.antialiasing.measured import mean_of_areas
 from core.pipeline import render
-from core.records.frame import Frame
 from core.records.motion import Motion
 from core.scene import ClipScene
 from core.settings import Settings
 from core.study.family import Assignment, StudyFamily
 from core.study.frame_task import LARGEST_COLOR, MEAN_COLOR, ColorTask
-from core.study.record import Axis, Judgement, Pictures, WorkKind
+from core.study.record import Axis, WorkKind
 from core.study.workloads import clip_of_window, flat_scene, window_mesh
 
 PICTURES = Axis(
@@ -31,22 +30,7 @@ class TemporalTask(ColorTask):
 
     def __init__(self, scene: ClipScene, reference: Callable[[], Any], pictures: int) -> None:
         super().__init__(scene, SIDE * SIDE, "resolve", reference)
-        self._pictures = pictures
-
-    def _sized(self, settings: Settings) -> Settings:
-        return replace(settings, pictures=self._pictures)
-
-    def start(self, settings: Settings) -> Callable[[], Frame]:
-        """Prepare a sequence of pictures."""
-        return super().start(self._sized(settings))
-
-    def judge(self, settings: Settings, made: Frame) -> Judgement:
-        """Compare what is kept with exact areas of the last picture."""
-        return super().judge(self._sized(settings), made)
-
-    def pictures(self, settings: Settings, made: Frame) -> Pictures:
-        """Return what is kept, and the exact areas."""
-        return super().pictures(self._sized(settings), made)
+        self.turned = {"pictures": pictures}
 
 
 def make_temporal(assignment: Assignment) -> TemporalTask:

@@ -31,7 +31,7 @@ from core.stages.declared import STAGES
 from core.stages.vertices import process_geometry
 from core.study.family import Assignment, Candidate, StudyFamily, Task
 from core.study.frame_task import MILLION, FrameTask, per_million, scalar_pictures
-from core.study.record import Axis, ErrorMeasure, Judgement, Opening, Pictures, WorkKind, judged
+from core.study.record import Axis, ErrorMeasure, Judgement, Pictures, WorkKind, judged
 from core.study.workloads import clip_of_window, flat_scene, random_triangles, sliver_triangles, window_mesh
 
 # Study of fills, number formats and fill rules: which pixels triangles cover, against rational arithmetic.
@@ -79,15 +79,7 @@ class CoverageTask(FrameTask):
         clip = clip_of_window(window, SIZE, 0.5 * level, level)
         super().__init__(flat_scene(clip, SIZE), len(clip), stages)
         self._clip, self._is_snapped = clip, is_snapped
-        self._block_size = int(assignment.dials.get("block-size", assignment.settings.block_size))
-
-    def start(self, settings: Settings) -> Callable[[], Frame]:
-        """Prepare the drawing, with blocks of the size that is measured."""
-        return super().start(replace(settings, block_size=self._block_size))
-
-    def opening(self, settings: Settings, made: Frame) -> Opening | None:
-        """Return the scene, drawn with these blocks."""
-        return super().opening(replace(settings, block_size=self._block_size), made)
+        self.turned = {"block_size": int(assignment.dials.get("block-size", assignment.settings.block_size))}
 
     @cached_property
     def reference(self) -> Integers:
@@ -108,7 +100,7 @@ class CoverageTask(FrameTask):
     def counts(self, settings: Settings, made: Frame) -> dict[str, int]:
         """Return the counts of the frame, and how many blocks or rows the fill looked at in place of pixels."""
         counts = super().counts(settings, made)
-        settings = replace(settings, block_size=self._block_size)
+        settings = self.with_dials(settings)
         geometry = process_geometry(self.scene, settings, {stage: StageCount() for stage in STAGES})
         _, runs = schedule(geometry.edges, settings, make_raster(SIZE, settings.pixel_center))
         counts["blocks tested"] = 0 if runs.blocks is None else len(runs.blocks.triangle)

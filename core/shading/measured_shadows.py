@@ -1,8 +1,5 @@
 """Shadows measured: pixels that a shadow map leaves wrongly dark or wrongly lit, and the bias that surfaces need."""
 
-from collections.abc import Callable
-from dataclasses import replace
-
 import numpy as np
 
 from core.pipeline import render
@@ -76,23 +73,16 @@ class ShadowTask(FrameTask):
 
     def __init__(self, size: int, bias: int) -> None:
         super().__init__(box_on_floor(), 1)
-        self._numbers = {"map_size": size, "shadow_bias": bias}
-
-    def _numbered(self, settings: Settings) -> Settings:
-        return replace(settings, map_size=self._numbers["map_size"], shadow_bias=self._numbers["shadow_bias"])
+        self.turned = {"map_size": size, "shadow_bias": bias}
 
     @cached_property
     def reference(self) -> Frame:
         """The picture whose shadows are those of rays."""
         return render(self.scene, Settings(shadow="rays"))
 
-    def start(self, settings: Settings) -> Callable[[], Frame]:
-        """Prepare one picture, its pass with it."""
-        return super().start(self._numbered(settings))
-
     def counts(self, settings: Settings, made: Frame) -> dict[str, int]:
         """Return the counts of the frame, and the texels of the map."""
-        planned = planned_passes(self.scene, self._numbered(settings))
+        planned = planned_passes(self.scene, self.with_dials(settings))
         dark, lit = self._wrong(made)
         return {
             "texels of the map": sum(each.scene.size[0] * each.scene.size[1] for each in planned),

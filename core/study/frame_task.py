@@ -1,8 +1,10 @@
 """Work that is a scene: methods draw it with `render`, and what they drew is compared with a reference."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from copy import copy
+from dataclasses import replace
 from functools import partial
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -37,6 +39,8 @@ class SceneWork(Work):
     scene: Any
     stage = "raster"
     """Where the stepper opens, a name of ``core.records.frame.STAGES``."""
+    turned: Mapping[str, int] = MappingProxyType({})
+    """The settings that dials of the work turn, with their numbers."""
 
     def __init__(self, scene: Any) -> None:
         self.scene = scene
@@ -44,7 +48,11 @@ class SceneWork(Work):
     def start(self, settings: Settings) -> Callable[[], Any]:
         """Prepare the drawing of a scene that is new to the pipeline, so that nothing is known from the run before."""
         check_pixel_tests(self.scene, settings)
-        return partial(render, copy(self.scene), settings)
+        return partial(render, copy(self.scene), self.with_dials(settings))
+
+    def with_dials(self, settings: Settings) -> Settings:
+        """Return a method's settings with the numbers of this work."""
+        return replace(settings, **self.turned) if self.turned else settings  # type: ignore[arg-type]
 
     def wrong_pixel(self, settings: Settings, made: Any) -> tuple[int, int] | None:
         """Return column and row of the first pixel that is wrong, if it is about pixels."""
@@ -52,7 +60,7 @@ class SceneWork(Work):
 
     def opening(self, settings: Settings, made: Any) -> Opening | None:
         """Return the scene at the first pixel that is wrong; ``None``: there is nothing to see."""
-        return Opening(self.scene, settings, self.stage, self.wrong_pixel(settings, made))
+        return Opening(self.scene, self.with_dials(settings), self.stage, self.wrong_pixel(settings, made))
 
 
 class FrameTask(SceneWork, Task):

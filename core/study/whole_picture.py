@@ -64,7 +64,7 @@ class PictureTask(FrameTask):
     def start(self, settings: Settings) -> Callable[[], Picture]:
         """Prepare one picture of a scene that is new to the pipeline."""
         check_pixel_tests(self.scene, settings)
-        return partial(draw_picture, copy(self.scene), settings, encoding="linear")
+        return partial(draw_picture, copy(self.scene), self.with_dials(settings), encoding="linear")
 
     @cached_property
     def reference(self) -> Frame:

@@ -1,8 +1,5 @@
 """Tessellation measured: the segments of a curve, and how far it is from them."""
 
-from collections.abc import Callable
-from dataclasses import replace
-
 import numpy as np
 
 from core.coverage.snapping import window_position
@@ -61,14 +58,7 @@ class CurveTask(FrameTask):
 
     def __init__(self, scene: ClipScene, segments: int, tolerance: int) -> None:
         super().__init__(scene, 1)
-        self._numbers = {"segments": segments, "curve_tolerance": tolerance}
-
-    def _sized(self, settings: Settings) -> Settings:
-        return replace(settings, **self._numbers)  # type: ignore[arg-type]
-
-    def start(self, settings: Settings) -> Callable[[], Frame]:
-        """Prepare one picture, the cutting with it."""
-        return super().start(self._sized(settings))
+        self.turned = {"segments": segments, "curve_tolerance": tolerance}
 
     def counts(self, settings: Settings, made: Frame) -> dict[str, int]:
         """Return the segments, and the mixtures that their ends take."""
@@ -78,7 +68,7 @@ class CurveTask(FrameTask):
 
     def judge(self, settings: Settings, made: Frame) -> Judgement:
         """Measure how far the curve is away; within the tolerance it is right."""
-        found, tolerance = deviation(self.scene, self._sized(settings)), self._numbers["curve_tolerance"]
+        found, tolerance = deviation(self.scene, self.with_dials(settings)), self.turned["curve_tolerance"]
         return judged({DEVIATION.name: found}, tolerance=tolerance / TOLERANCE_PARTS)
 
     def pictures(self, settings: Settings, made: Frame) -> Pictures:

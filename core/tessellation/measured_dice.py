@@ -1,6 +1,5 @@
 """Split and dice measured: shaded points and the outline of a ball, by the side of micropolygons and by layers."""
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -34,18 +33,11 @@ class DicedTask(FrameTask):
 
     def __init__(self, scene: Scene, side: int) -> None:
         super().__init__(scene, 1)
-        self._side = side
-
-    def _sized(self, settings: Settings) -> Settings:
-        return replace(settings, curve_tolerance=self._side)
-
-    def start(self, settings: Settings) -> Callable[[], Frame]:
-        """Prepare one picture, the dicing with it."""
-        return super().start(self._sized(settings))
+        self.turned = {"curve_tolerance": side}
 
     def counts(self, settings: Settings, made: Frame) -> dict[str, int]:
         """Return the points that are shaded, the triangles, and the fragments that a pixel has at most."""
-        made_scene = before_matrices(self.scene, self._sized(settings))
+        made_scene = before_matrices(self.scene, self.with_dials(settings))
         assert isinstance(made_scene, Scene)
         return {
             "points shaded": sum(len(mesh.positions) for mesh in made_scene.meshes),

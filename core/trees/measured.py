@@ -1,6 +1,5 @@
 """Trees of boxes on the same rays: nodes, references and bytes, and the boxes and triangles that the rays ask."""
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +10,7 @@ from core.scene import AnyScene
 from core.settings import Settings
 from core.stages.object_tree import object_tree
 from core.study.family import Assignment, StudyFamily
-from core.study.record import Axis, Judgement, Pictures, WorkKind
+from core.study.record import Axis, WorkKind
 from core.study.whole_picture import MEASURES, ChoiceTask
 from core.study.workloads import sphere_scene
 from core.trace.source import TraceSource
@@ -51,35 +50,20 @@ class TreeTask(ChoiceTask):
 
     def __init__(self, scene: AnyScene, base: Settings, leaf_size: int) -> None:
         super().__init__(scene, "hierarchy", base)
-        self._leaf_size = leaf_size
-
-    def _sized(self, settings: Settings) -> Settings:
-        return replace(settings, leaf_size=self._leaf_size)
-
-    def start(self, settings: Settings) -> Callable[[], Picture]:
-        """Prepare one picture, the tree with it."""
-        return super().start(self._sized(settings))
+        self.turned = {"leaf_size": leaf_size}
 
     def counts(self, settings: Settings, made: Picture) -> dict[str, int]:
         """Return the size of the tree, and what all rays of the picture ask."""
-        tree = tree_of(self.scene, self._sized(settings))
-        walk = walk_of_all_rays(self.scene, self._sized(settings))
+        settings = self.with_dials(settings)
+        tree, walk = tree_of(self.scene, settings), walk_of_all_rays(self.scene, settings)
         return {
             "nodes": len(tree),
             "references": len(tree.items),
             "bytes of the tree": tree.byte_count,
             "boxes asked": int(walk.box_count.sum()),
             "triangles asked": int(walk.asked_count.sum()),
-            **super().counts(self._sized(settings), made),
+            **super().counts(settings, made),
         }
-
-    def judge(self, settings: Settings, made: Picture) -> Judgement:
-        """Compare with rays that ask the whole mesh."""
-        return super().judge(self._sized(settings), made)
-
-    def pictures(self, settings: Settings, made: Picture) -> Pictures:
-        """Return the bytes over 255, and those of rays that ask the whole mesh."""
-        return super().pictures(self._sized(settings), made)
 
 
 def make_trees(assignment: Assignment) -> TreeTask:
