@@ -3,22 +3,20 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import QPointF, QRect, QRectF, QSize, Qt, Signal, Slot
-from PySide6.QtGui import QColor, QFont, QFontMetrics, QKeyEvent, QPainter, QPaintEvent, QPen, QResizeEvent
-from PySide6.QtWidgets import QAbstractButton, QToolButton, QWidget
+from PySide6.QtCore import QPointF, QSize, Qt, Signal, Slot
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QResizeEvent
+from PySide6.QtWidgets import QToolButton, QWidget
 
 from core.records.words import counted, has_words
-from widgets.basics.accessibility import ArrowGroup, KeyClaim
+from widgets.basics.accessibility import ArrowGroup
+from widgets.basics.card import GAP, SPACING, Card
 from widgets.basics.controls import FlowLayout, button_with_tip, column_layout, row_layout, text_label
-from widgets.basics.theme import Theme, current_theme, text_font, theme_notifier
+from widgets.basics.theme import current_theme, theme_notifier
 
 WIDTH = 286
 """Least of a card at a text size of 13: three stand side by side in a window of 1280 pixels."""
 WIDEST = 1.6
 """Times that width, at most."""
-GAP = 8
-SPACING = 12
-WRAPPED = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop) | int(Qt.TextFlag.TextWordWrap)
 BY_STAGE, BY_LEARNING = "List by stage", "List in the order of learning"
 
 
@@ -73,49 +71,31 @@ class LessonPart:
         return f"{counted(len(self.lessons), 'lesson')}, {minutes} minutes{f', {done} done' if done else ''}"
 
 
-class LessonCard(QAbstractButton):
+class LessonCard(Card):
     """A button with title, question, minutes and a dot for each step."""
 
     def __init__(self, entry: LessonEntry, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+        super().__init__(entry.name, (entry.title, entry.question), (Qt.Key.Key_Space,), parent)
         self.entry = entry
         self._width = WIDTH
-        self._heights: tuple[tuple[Theme, int], tuple[int, int]] | None = None
-        self.setObjectName(entry.name)
-        self.setText(entry.title)
-        self.setAccessibleName(entry.title)
         here = " Go on here." if entry.is_next else ""
         self.setAccessibleDescription(f"{entry.question} {entry.progress}.{here}")
         self.setToolTip(entry.progress)
-        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setAttribute(Qt.WidgetAttribute.WA_Hover)
-        KeyClaim(self, (Qt.Key.Key_Space,))
 
     def sizeHint(self) -> QSize:
         """Return the size of all texts; the parent gives a part the height of its highest."""
-        title, question = self._text_heights()
+        title, question = self.text_heights(self._width - 2 * GAP)
         last = round(1.5 * current_theme().text_px)
         return QSize(self._width, title + question + last + 3 * GAP)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the card, with a frame where it has the keyboard or the pointer, or where one goes on."""
         theme, entry = current_theme(), self.entry
-        title_height, _ = self._text_heights()
+        title_height, _ = self.text_heights(self._width - 2 * GAP)
         with QPainter(self) as painter:
-            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-            is_framed = self.underMouse() or self.hasFocus() or entry.is_next
-            frame = QPen(QColor(theme.focus if self.hasFocus() else theme.outline), 2)
-            painter.setPen(frame if is_framed else Qt.PenStyle.NoPen)
-            painter.setBrush(QColor(theme.selection if self.isDown() else theme.panel))
-            painter.drawRoundedRect(QRectF(self.rect()).adjusted(1, 1, -1, -1), 4, 4)
+            self.paint_card(painter, is_marked=entry.is_next)
             text = self.rect().adjusted(GAP, GAP, -GAP, -GAP)
-            title, question = _fonts()
-            painter.setFont(title)
-            painter.setPen(QColor(theme.text))
-            painter.drawText(text, WRAPPED, entry.title)
-            painter.setFont(question)
-            painter.setPen(QColor(theme.muted_text))
-            painter.drawText(text.adjusted(0, title_height + GAP // 2, 0, 0), WRAPPED, entry.question)
+            self.paint_texts(painter, text, title_height + GAP // 2)
             said = f"{entry.minutes} min" + (" · go on here" if entry.is_next and entry.is_begun else "")
             painter.drawText(text, int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignBottom), said)
             radius = 0.3 * theme.text_px
@@ -131,36 +111,9 @@ class LessonCard(QAbstractButton):
                     painter.setBrush(QColor(theme.muted_text))
                     painter.drawEllipse(middle, 0.3 * radius, 0.3 * radius)
 
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Open the lesson with Return too."""
-        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
-            self.click()
-        else:
-            super().keyPressEvent(event)
-
     def set_width(self, width: int) -> None:
         """Take so many pixels of width."""
         self._width = width
-
-    def _text_heights(self) -> tuple[int, int]:
-        """Return the heights of title and question, wrapped: a layout asks many times."""
-        made_from = current_theme(), self._width
-        if self._heights is None or self._heights[0] != made_from:
-            room = QRect(0, 0, self._width - 2 * GAP, 1000)
-            title, question = (
-                QFontMetrics(font).boundingRect(room, WRAPPED, text).height()
-                for font, text in zip(_fonts(), (self.entry.title, self.entry.question), strict=True)
-            )
-            self._heights = made_from, (title, question)
-        return self._heights[1]
-
-
-def _fonts() -> tuple[QFont, QFont]:
-    """Return the fonts of the title and of the question."""
-    theme = current_theme()
-    title = text_font(theme)
-    title.setWeight(QFont.Weight.DemiBold)
-    return title, text_font(theme, theme.text_px - 1)
 
 
 class LessonPartView(QWidget):

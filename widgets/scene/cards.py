@@ -4,37 +4,31 @@ from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
 from itertools import groupby
 
-from PySide6.QtCore import QEvent, QPoint, QRect, QRectF, QSize, Qt, Signal, Slot
+from PySide6.QtCore import QEvent, QPoint, QRect, QSize, Qt, Signal, Slot
 from PySide6.QtGui import (
     QColor,
-    QFont,
-    QFontMetrics,
     QImage,
     QKeyEvent,
     QPainter,
     QPaintEvent,
-    QPen,
     QResizeEvent,
 )
-from PySide6.QtWidgets import QAbstractButton, QWidget
+from PySide6.QtWidgets import QWidget
 
 from core.records.words import has_words
-from widgets.basics.accessibility import ArrowGroup, KeyClaim, give_focus
+from widgets.basics.accessibility import ArrowGroup, give_focus
+from widgets.basics.card import GAP, SPACING, Card
 from widgets.basics.controls import FlowLayout, column_layout, text_label
-from widgets.basics.theme import Theme, current_theme, text_font, theme_notifier
+from widgets.basics.theme import current_theme, theme_notifier
 
 PICTURE = QSize(64, 48)
 """Logical pixels of a picture at a text size of 13, times 3 or 4: a teaching raster keeps square pixels."""
 SIZES = (3, 4)
 MANY = 5
 """Cards in a row that the larger pictures leave room for."""
-GAP = 8
-SPACING = 12
-"""Pixels between two cards."""
 STEPS = {Qt.Key.Key_Left: (-1, 0), Qt.Key.Key_Right: (1, 0), Qt.Key.Key_Up: (0, -1), Qt.Key.Key_Down: (0, 1)}
 """Columns and rows that an arrow goes."""
 CENTERED = int(Qt.AlignmentFlag.AlignCenter) | int(Qt.TextFlag.TextWordWrap)
-WRAPPED = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop) | int(Qt.TextFlag.TextWordWrap)
 
 
 @dataclass(frozen=True)
@@ -46,26 +40,18 @@ class SceneEntry:
     description: str
 
 
-class SceneCard(QAbstractButton):
+class SceneCard(Card):
     """A button with a picture, which may come later."""
 
     def __init__(self, entry: SceneEntry, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+        super().__init__(entry.name, (entry.title, entry.description), (*STEPS, Qt.Key.Key_Space), parent)
         self.entry = entry
         self._image: QImage | None = None
         self._hidden = ""
         """Why the picture is hidden; empty: it is not."""
         self._size = SIZES[0]
-        self._heights: tuple[tuple[int, Theme], tuple[int, int]] | None = None
-        """Of title and sentence, and what they are made from."""
-        self.setObjectName(entry.name)
-        self.setText(entry.title)
-        self.setAccessibleName(entry.title)
         self.setAccessibleDescription(entry.description)
         self.setToolTip(entry.description)
-        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setAttribute(Qt.WidgetAttribute.WA_Hover)
-        KeyClaim(self, (*STEPS, Qt.Key.Key_Space))
 
     @Slot(QImage)
     def show_picture(self, image: QImage) -> None:
@@ -90,19 +76,14 @@ class SceneCard(QAbstractButton):
 
     def sizeHint(self) -> QSize:
         """Return the size of picture, title and sentence; the parent gives a group the height of its highest."""
-        text = sum(self._text_heights())
+        text = sum(self.text_heights(self._picture_size().width()))
         return QSize(self._picture_size().width() + 2 * GAP, self._picture_size().height() + text + 3 * GAP)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the card, with a frame where it has the keyboard or the pointer."""
         theme = current_theme()
         with QPainter(self) as painter:
-            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-            frame = theme.focus if self.hasFocus() else theme.outline
-            is_framed = self.underMouse() or self.hasFocus()
-            painter.setPen(QPen(QColor(frame), 2) if is_framed else Qt.PenStyle.NoPen)
-            painter.setBrush(QColor(theme.selection if self.isDown() else theme.panel))
-            painter.drawRoundedRect(QRectF(self.rect()).adjusted(1, 1, -1, -1), 4, 4)
+            self.paint_card(painter)
             picture = QRect(GAP, GAP, self._picture_size().width(), self._picture_size().height())
             painter.fillRect(picture, QColor(theme.canvas))
             if self._hidden:
@@ -118,39 +99,7 @@ class SceneCard(QAbstractButton):
                 painter.drawImage(shown, self._image)
             text = picture.translated(0, picture.height() + GAP // 2)
             text.setBottom(self.height())
-            title, sentence = self._fonts()
-            painter.setFont(title)
-            painter.setPen(QColor(theme.text))
-            painter.drawText(text, WRAPPED, self.entry.title)
-            painter.setFont(sentence)
-            painter.setPen(QColor(theme.muted_text))
-            painter.drawText(text.adjusted(0, self._text_heights()[0], 0, 0), WRAPPED, self.entry.description)
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Open the scene with Return too."""
-        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
-            self.click()
-        else:
-            super().keyPressEvent(event)
-
-    def _fonts(self) -> tuple[QFont, QFont]:
-        """Return the fonts of the title and of the sentence."""
-        theme = current_theme()
-        title = text_font(theme)
-        title.setWeight(QFont.Weight.DemiBold)
-        return title, text_font(theme, theme.text_px - 1)
-
-    def _text_heights(self) -> tuple[int, int]:
-        """Return the heights of title and sentence, wrapped to the width of the picture: a layout asks many times."""
-        made_from = self._picture_size().width(), current_theme()
-        if self._heights is None or self._heights[0] != made_from:
-            room = QRect(0, 0, made_from[0], 1000)
-            title, sentence = (
-                QFontMetrics(font).boundingRect(room, WRAPPED, text).height()
-                for font, text in zip(self._fonts(), (self.entry.title, self.entry.description), strict=True)
-            )
-            self._heights = made_from, (title, sentence)
-        return self._heights[1]
+            self.paint_texts(painter, text, self.text_heights(picture.width())[0])
 
     def _picture_size(self) -> QSize:
         return PICTURE * (self._size * current_theme().text_px / 13)
