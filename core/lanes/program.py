@@ -226,22 +226,13 @@ class _Recorder:
         return known[2]
 
 
-def record_steps(
-    program: Program, values: Sequence[Any], *, limits: Limits = LISTING, stop: Stop | None = None
-) -> tuple[LaneStep, ...]:
-    """Run a program on one lane, with plain numbers, and return its steps; raises `Problem`."""
-    recorder = _Recorder(limits, program.dialect.names())
-    program.run(values, 1, limits=limits, watch=recorder, stop=stop)
-    return tuple(recorder.steps)
-
-
 def steps_until_problem(
-    program: Program, values: Sequence[Any], *, limits: Limits = LISTING, stop: Stop | None = None
+    program: Program, values: Sequence[Any], *, limits: Limits = LISTING
 ) -> tuple[tuple[LaneStep, ...], Problem | None]:
     """Return the steps of a run on one lane, and what ended it; ``None``: it came to its end."""
     recorder = _Recorder(limits, program.dialect.names())
     try:
-        program.run(values, 1, limits=limits, watch=recorder, stop=stop)
+        program.run(values, 1, limits=limits, watch=recorder)
     except Problem as problem:
         return tuple(recorder.steps), problem
     return tuple(recorder.steps), None

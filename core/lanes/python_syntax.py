@@ -128,8 +128,8 @@ class Reader:
             return Problem(self.place(node), "a loop has no else in the language of listings")
         return Problem(self.place(node), f"{word or 'this'} is not in the language of listings")
 
-    def _deeper(self, node: ast.AST, by: int = 1) -> None:
-        self._depth += by
+    def _deeper(self, node: ast.AST) -> None:
+        self._depth += 1
         if self._depth > DEEPEST:
             raise Problem(self.place(node), "too much stands in each other here")
 

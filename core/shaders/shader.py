@@ -165,14 +165,14 @@ class ShaderFunctions(Program):
             raise Problem(function.place, f"{function.name} ends without return{run.some(left)}")
         return frame.value
 
-    def run_main(self, run: ShaderRun, mask: Some = None, name: str = "main") -> None:
-        """Run main, or in a check another function, in the lanes of a mask (L,), with what the run's names hold."""
+    def run_main(self, run: ShaderRun, name: str = "main") -> None:
+        """Run main, or in a check another function, in all lanes, with what the run's names hold."""
         function = self.functions[name]
         run.place = function.place
         try:
             with np.errstate(all="ignore"):
                 self._called(
-                    run, function, [run.names[each] for each in function.parameters], mask, run.place, 0
+                    run, function, [run.names[each] for each in function.parameters], None, run.place, 0
                 )
         except Problem:
             raise

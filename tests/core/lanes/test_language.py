@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from core.lanes.nodes import If
 from core.lanes.problem import Problem
-from core.lanes.program import compile_listing, record_steps, steps_until_problem
+from core.lanes.program import compile_listing, steps_until_problem
 from core.lanes.python_values import at_lane
 from core.lanes.run import NOBODY, Nobody, joined, lanes_in, split
 from core.lanes.terms import equalities, in_numbers, in_symbols, said, shown
@@ -164,7 +164,7 @@ def f(x, owns):
 
 
 def test_steps_are_told_in_symbols_numbers_and_result():
-    steps = record_steps(compile_listing(STEPS), [3.0, True])
+    steps = steps_until_problem(compile_listing(STEPS), [3.0, True])[0]
     assert [said(step) for step in steps] == [
         "n = [2 · x + k for k in range(3)] = [2 · 3 + 0, 2 · 3 + 1, 2 · 3 + 2] = [6, 7, 8]",
         "total = n[0] − n[1] · (−n[2]) − (x − 1) = 6 − 7 · (−8) − (3 − 1) = 60",
@@ -180,7 +180,7 @@ def test_steps_are_told_in_symbols_numbers_and_result():
 
 def test_a_step_keeps_lists_as_they_were():
     text = "def f(x):\n  out = []\n  for k in range(3):\n    out.append(k * x)\n  return out\n"
-    steps = record_steps(compile_listing(text), [2])
+    steps = steps_until_problem(compile_listing(text), [2])[0]
     puts = [step for step in steps if step.kind == "append"]
     assert [(step.before["out"], step.after["out"]) for step in puts] == [
         ([], [0]),
@@ -217,7 +217,7 @@ def test_a_term_in_numbers_is_worth_its_result():
         "def f(a, b, c):\n  r = a - (b - c) * -a - -b * (a + c) + 3 * (c - -a)\n  return r\n"
     )
     for values in rng.integers(-9, 9, (40, 3)).tolist():
-        (equality,) = equalities(record_steps(program, values)[0])
+        (equality,) = equalities(steps_until_problem(program, values)[0][0])
         text = in_numbers(equality.right).replace("−", "-").replace("·", "*")
         again = compile_listing(f"def g(a):\n  return {text}\n").run([0], 1)
         assert again == equality.result
@@ -227,6 +227,6 @@ def test_a_term_in_numbers_is_worth_its_result():
 def test_an_element_has_its_value_whatever_sum_its_index_is():
     program = compile_listing("def f(xs, i):\n  r = xs[i - 1] + 10 * xs[i + 1] + 100 * xs[-i]\n  return r\n")
     for i in (1, 2):
-        (equality,) = equalities(record_steps(program, [[2, 3, 5, 7], i])[0])
+        (equality,) = equalities(steps_until_problem(program, [[2, 3, 5, 7], i])[0][0])
         again = compile_listing(f"def g(a):\n  return {in_numbers(equality.right).replace('·', '*')}\n")
         assert again.run([0], 1) == equality.result

@@ -11,7 +11,7 @@ from core import STAGES, ClipScene, Settings, Trace, render, trace
 from core.edits.edit import original
 from core.edits.typed import Typed
 from core.explain.steps import sentence, variables
-from core.lanes.program import record_steps
+from core.lanes.program import steps_until_problem
 from core.lines.line_method import OFF, has_intensities, line_traits
 from core.lines.smooth import FILTER_TABLE
 from core.lines.traced import SET_UP
@@ -126,7 +126,7 @@ def test_every_assignment_is_a_step_and_every_variable_holds_what_the_listing_ho
         ends = [*c["first_end"][start], *c["second_end"][start]]
         ends = [int(end) for end in ends] if line_traits(line).takes_pixels else ends
         listed = original("line", line)
-        ran = iter(record_steps(Typed(listed.function, listed.source).program, [*ends, False]))
+        ran = iter(steps_until_problem(Typed(listed.function, listed.source).program, [*ends, False])[0])
         for position in range(steps.starts[start] + 1, steps.starts[end] + 1):
             made = found.explain(position)
             row = steps.row_at(position)[0]
