@@ -67,7 +67,7 @@ USAGE = """usage: python3 bootstrap.py run [FILE | arguments of the program]
 
 run    starts Rasterscope (run --help lists what it can do)
 test   checks format, lint, types and import contracts and runs the tests in a few minutes;
-       with --all every combination, the slow tests and many random examples (an hour or so)
+       with --all every combination, the slow tests and many random examples (half an hour or so)
 bench  measures Rasterscope against other libraries, which it installs
 """
 

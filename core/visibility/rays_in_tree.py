@@ -90,9 +90,10 @@ class TreeRays:
         """Return how near a hit in boxes (U,) can be at most, as `RayPlanes.values` counts, of rays that enter at t."""
         if not self.has_order:
             return np.full(len(enter), inf)
-        with np.errstate(divide="ignore"):
+        with np.errstate(divide="ignore", invalid="ignore"):
             nearest = np.where(enter > 0, 1 / enter, inf) if self.is_central else -enter / self.across
-        return np.asarray((nearest + self.steepness.take(node)) + np.abs(nearest) * 2.0**-40)
+            bound = (nearest + self.steepness.take(node)) + np.abs(nearest) * 2.0**-40
+        return np.where(np.isnan(bound), inf, bound)  # Infinities of both signs bound nothing.
 
 
 def set_up_tree_rays(
