@@ -44,15 +44,17 @@ class FocusWalk(QObject):
     def go(self, *, is_forward: bool) -> bool:
         """Go to the next stop, or back to the one before; return whether there is one.
 
-        Qt asks for this also when what has the keyboard is being hidden: then it goes to the first stop.
+        Qt asks for this also when what has the keyboard is being hidden: then it goes to the first stop, and
+        the arrows go on stepping, as nobody went there.
         """
         now, panes = self.window.focusWidget(), self.panes()
         if now is not None and not now.isVisible():
-            stop = first_stop(panes)
+            stop, reason = first_stop(panes), GIVEN_BACK
         else:
             stop = next_stop(tab_stops(panes), now, is_forward=is_forward)
+            reason = Qt.FocusReason.TabFocusReason
         if stop is not None:
-            give_focus(stop)
+            give_focus(stop, reason)
         return stop is not None
 
     def go_pane(self, direction: int) -> None:
