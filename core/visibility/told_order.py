@@ -128,7 +128,7 @@ def sort_table(trace: StageTrace, rows: Integers, position: int) -> StepTable:
     ]
     here = int(trace.triangle[current]) if current >= 0 and current <= rows[-1] else -1
     return StepTable(
-        "Order so far, first drawn on top",
+        "Order so far, from the first drawn to the last",
         names.one.capitalize(),
         (
             TableColumn("D", "Sum of the depths of its corners."),
