@@ -288,7 +288,7 @@ LIT_MESHES = Kind(
         Field("target"),
         Field("opening", simplest=(1.0,)),
         Field("light"),
-        Field("material", simplest=(0.0, 0.0, 0.0, 1.0)),
+        Field("material", simplest=(0.0, 0.0, 0.0, 1.0, 0.0)),
     ),
     lit_mesh_of,
     scene_of_lit_mesh,

@@ -87,13 +87,13 @@ def faulty_run(question: Question, mistake: str) -> StepRequest | None:
     if scene is None:
         scene, settings = twin.shows.scene, twin.shows.settings
         request = StepRequest(Opening(scene, settings, question.template.stage), question.template.title)
-    if request is None or not isinstance(scene, ClipScene):
+    if request is None or not (isinstance(scene, ClipScene) or twin.takes_any_scene):
         return None
     return StepRequest(
         request.opening,
         request.title,
         twin.change_settings(request.opening.settings),
-        other_scene=twin.change_scene(scene),
+        other_scene=twin.change_scene(scene) if isinstance(scene, ClipScene) else scene,
         other_title=f"with the mistake: {mistake.replace('-', ' ')}",
         is_asked=False,
     )
