@@ -82,6 +82,7 @@ def test_plain_text_and_standard_latex() -> None:
     assert without_macros(r"\vertex{0}{u} & = & 1") == "{u} = 1"
     assert plain_text(r"a & = & 1 & \quad & b & = & 2") == "a = 1; b = 2"
     assert plain_text(r"a = 7 \quad (\mathrm{mod} \, 2^{32})") == "a = 7 (mod 2^32)"
+    assert plain_text(r"\frac{10^{-14} + a}{2 - 10^{-15}}") == "(10^−14 + a)/(2 − 10^−15)"
 
 
 def test_a_matrix_with_an_exponent_is_typeset() -> None:
