@@ -196,7 +196,7 @@ def suited(settings: Any, scene: AnyScene) -> Any:
     if isinstance(scene, ClipScene) and scene.table is not None:
         from core.depth.whole_depths import TABLE_DEPTHS  # Only such scenes wait for it.
 
-        seen = "z-buffer" if decides_itself(settings.visibility) else settings.visibility
+        seen = "z-buffer" if casts_rays(settings.visibility) else settings.visibility
         plain = type(settings)(polygon_mode="wireframe", visibility=seen, blend=settings.blend)
         return plain.replaced(depth=TABLE_DEPTHS[scene.table.test])
     if corner_count > 3:

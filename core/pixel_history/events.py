@@ -130,7 +130,12 @@ def list_events(
     missed = [] if is_table else _missed_events(candidates, fragments.triangle)
     culled = [_culled_event(candidates, int(triangle)) for triangle in candidates.culled]
     clipped = [_clipped_event(candidates, int(triangle)) for triangle in candidates.clipped_away]
-    ranked = sorted([*drawn, *missed, *culled, *clipped], key=_Rank(candidates, fragments))
+    undrawn = [*missed, *culled, *clipped]
+    if fragments.turn is None:
+        ranked = sorted([*drawn, *undrawn], key=_Rank(candidates))
+    else:
+        undrawn.sort(key=lambda event: event.triangle)
+        ranked = [*undrawn, *(drawn[k] for k in fragments.in_turn)]
     first = (
         PixelEvent("initial", (Link("blend", "initial", {}),)),
         PixelEvent("clear", (Link("blend", "clear", {}),), out=cleared, after=cleared),
@@ -146,21 +151,15 @@ class _Rank:
     Notes
     -----
     Under the painter's algorithm culled triangles are never sorted: they stand before the others. So do they where the
-    order cuts triangles, whose pieces are drawn in several turns, and where scan lines sort the fragments.
+    order cuts triangles, whose pieces are drawn in several turns.
     """
 
-    def __init__(self, candidates: PixelCandidates, fragments: PixelFragments) -> None:
+    def __init__(self, candidates: PixelCandidates) -> None:
         self._order = candidates.geometry.kept.triangle
         self._is_rising = bool((np.diff(self._order) > 0).all())
         self._is_cut = candidates.geometry.kept_pieces is not None
-        self._turn = None
-        if fragments.turn is not None:
-            self._turn = {int(fragments.primitive[k]): turn for turn, k in enumerate(fragments.in_turn)}
 
     def __call__(self, event: PixelEvent) -> tuple[int, int]:
-        if self._turn is not None:
-            turn = self._turn[event.primitive] if event.kind == "fragment" else -1
-            return turn, event.triangle
         if self._is_rising:
             return event.triangle, event.primitive
         if self._is_cut:

@@ -132,6 +132,7 @@ def decide_by_lists(case: ExactCase) -> tuple[Flags, ExactTests]:
     exact_for="opaque and blended triangles in any order, to the resolution of the depth format",
     breaks_where="memory: it grows with the hits of all samples; exact areas: pieces of pixels are not sorted",
     listing=list_hits,
+    traits="lists",
 )
 def hit_lists(clip: Floats) -> DrawingOrder:
     """Take the triangles as given: lists are sorted when all of them are drawn."""

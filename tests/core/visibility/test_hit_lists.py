@@ -10,12 +10,14 @@ from hypothesis import strategies as st
 
 from core import ClipScene, Settings, draw_picture, render, trace
 from core.framebuffer.blending import resolve_from_front
+from core.framebuffer.display import to_display
 from core.methods import table
 from core.pixel_history import why
 from core.records.arrays import Floats
 from core.trace.source import TraceSource
 from core.visibility.hit_lists import HIT_BYTES, HitLists, list_hits
 from lessons.scenes import make_scene
+from tests.core.pixel_history.test_why_picture import check_pixels
 from tests.core.strategies import clip_of_window
 from tests.core.trace.trace_cases import SCENES
 
@@ -150,6 +152,14 @@ def test_both_listings_give_the_picture(count: int, seed: int) -> None:
         assert resolved == frame.color.reshape(-1, 4)[pixel].tolist()
 
 
+def test_the_fast_picture_has_all_hits_of_a_list() -> None:
+    scene = make_scene("crossing-glass")
+    for blend in table.names("blend"):
+        settings = replace(LISTS, blend=blend)
+        shown = to_display(render(scene, settings).color).pixels
+        assert np.array_equal(draw_picture(scene, settings).pixels, shown), blend
+
+
 def test_pale_pixels_of_lines_are_sorted_too_and_hide_nothing() -> None:
     settings = replace(LISTS, polygon_mode="wireframe", line="wu")
     frame, picture = render(SCENES["clip"], settings), draw_picture(SCENES["clip"], settings)
@@ -158,6 +168,12 @@ def test_pale_pixels_of_lines_are_sorted_too_and_hide_nothing() -> None:
         found = traced.stage(stage)
         assert np.array_equal(found.state(found.steps.count)[name], getattr(frame, name))
     assert picture.route.visibility == "frame"
+
+
+def test_lines_of_one_triangle_stand_in_a_history_as_the_list_sorts_them() -> None:
+    scene = SCENES["clip"]
+    pixels = [(column, row) for row in range(scene.size[1]) for column in range(scene.size[0])]
+    check_pixels(scene, replace(LISTS, polygon_mode="wireframe", blend="additive"), pixels)
 
 
 def test_a_triangle_alone_is_resolved_over_those_before_it() -> None:
