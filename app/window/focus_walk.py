@@ -44,17 +44,15 @@ class FocusWalk(QObject):
     def go(self, *, is_forward: bool) -> bool:
         """Go to the next stop, or back to the one before; return whether there is one.
 
-        Qt asks for this also when what has the keyboard is being hidden: then it goes to the first stop, and
-        the arrows go on stepping, as nobody went there.
+        Qt asks for this also when what has the keyboard is being hidden: then it goes to the first stop.
         """
         now, panes = self.window.focusWidget(), self.panes()
         if now is not None and not now.isVisible():
-            stop, reason = first_stop(panes), GIVEN_BACK
+            stop = first_stop(panes)
         else:
             stop = next_stop(tab_stops(panes), now, is_forward=is_forward)
-            reason = Qt.FocusReason.TabFocusReason
         if stop is not None:
-            give_focus(stop, reason)
+            give_focus(stop)
         return stop is not None
 
     def go_pane(self, direction: int) -> None:

@@ -221,22 +221,6 @@ def test_f6_walks_the_panes_and_escape_comes_back(window: MainWindow) -> None:
 
 
 @pytest.mark.own_window
-def test_arrows_step_in_the_view_that_is_left_when_a_list_closes(window: MainWindow) -> None:
-    """The view in space keeps the arrows for itself only where Tab or F6 brought the keyboard there."""
-    window.run_action("page_step")
-    window.run_action("stage_0")
-    chooser = window.overlays.scenes
-    window.run_action("choose_scene")
-    QTest.keyClicks(chooser.field, "bent-bar")
-    QTest.keyClick(chooser.field, Qt.Key.Key_Return)
-    for key, is_at_start in ((Qt.Key.Key_Right, False), (Qt.Key.Key_Left, True)):
-        focused = window.focusWidget()
-        assert isinstance(focused, SceneView)
-        QTest.keyClick(focused, key)
-        assert (window.session.cursor.position == 0) == is_at_start
-
-
-@pytest.mark.own_window
 def test_what_hides_gives_the_keyboard_to_the_first_stop_without_looking_further(
     window: MainWindow, monkeypatch: pytest.MonkeyPatch
 ) -> None:
