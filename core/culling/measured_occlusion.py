@@ -1,8 +1,5 @@
 """Occluders measured: what the largest boxes hide of others behind them, and what comparing these takes."""
 
-from collections.abc import Callable
-from dataclasses import replace
-
 import numpy as np
 
 from core.pipeline import render
@@ -46,21 +43,14 @@ class OccludersTask(SeenTask):
 
     def __init__(self, scene: Scene, occluders: int) -> None:
         super().__init__(scene, len(scene.meshes), "cull", self._without_culling)
-        self._occluders = occluders
+        self.turned = {"occluders": occluders}
 
     def _without_culling(self) -> Integers:
         return render(self.scene, Settings(shading="unlit")).primitive.astype(np.int64)
 
-    def _numbered(self, settings: Settings) -> Settings:
-        return replace(settings, hierarchy="none", occluders=self._occluders)
-
-    def start(self, settings: Settings) -> Callable[[], Frame]:
-        """Prepare one picture, its pass with it."""
-        return super().start(self._numbered(settings))
-
     def counts(self, settings: Settings, made: Frame) -> dict[str, int]:
         """Return the counts of the frame, and what boxes were compared with."""
-        chosen = self._numbered(settings)
+        chosen = self.with_dials(settings)
         objects = process_geometry(self.scene, chosen, {s: StageCount() for s in STAGES}).culled.objects
         found = {"boxes outside the view": 0, "boxes hidden": 0, "texels read": 0}
         if objects is not None:
@@ -96,5 +86,5 @@ OCCLUDERS = StudyFamily(
     ),
     (WRONG_VISIBLE,),
     make_occluders,
-    Settings(shading="unlit"),
+    Settings(shading="unlit", hierarchy="none"),
 )

@@ -1,6 +1,5 @@
 """Environment maps measured: by how much a look-up is off, for what is near, in texels of the map."""
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -18,7 +17,7 @@ from core.stages.needs import MOST_RAYS
 from core.stages.passes import map_camera, planned_passes
 from core.study.experiment import Experiment
 from core.study.family import Assignment, StudyFamily
-from core.study.frame_task import FrameTask, color_pictures
+from core.study.frame_task import FrameTask, SceneWork, color_pictures
 from core.study.record import Axis, ErrorMeasure, Judgement, Outcome, Pictures, Verdict, WorkKind
 from core.trace import trace
 
@@ -103,17 +102,13 @@ class ReflectionTask(FrameTask):
     """A mirror before a wall, whose look-ups are compared with rays."""
 
     stage = "shade"
+    wrong_pixel = SceneWork.wrong_pixel
+    """The first look-up that is off, not the first pixel that differs a little from rays."""
 
     def __init__(self, distance: float, size: int) -> None:
         super().__init__(facing_wall(distance), 1)
         self._size = size
-
-    def _sized(self, settings: Settings) -> Settings:
-        return replace(settings, environment_size=self._size)
-
-    def start(self, settings: Settings) -> Callable[[], Frame]:
-        """Prepare one picture, its passes with it."""
-        return super().start(self._sized(settings))
+        self.turned = {"environment_size": size}
 
     def counts(self, settings: Settings, made: Frame) -> dict[str, int]:
         """Return the counts of the frame, and the texels of the map."""
@@ -124,11 +119,11 @@ class ReflectionTask(FrameTask):
         """Find the largest error of a look-up; rays have none."""
         wrong, off = np.zeros(made.primitive.shape, bool), 0.0
         if settings.environment == "cube":
-            source = trace(self.scene, self._sized(settings)).source
+            source = trace(self.scene, self.with_dials(settings)).source
             layout, values = source.geometry.primitives.layout, source.interpolated[1]
             mesh = source.geometry.primitives.mesh[source.fragments.primitive]
             ends = values[:, layout["position"]], values[:, layout["normal"]]
-            angles = off_angles(self.scene, self._sized(settings), mesh, *ends)
+            angles = off_angles(self.scene, self.with_dials(settings), mesh, *ends)
             off = in_texels(float(np.nanmax(angles)), self._size)
             is_off = in_texels(1.0, self._size) * angles > ENOUGH
             wrong[source.fragments.row[is_off], source.fragments.column[is_off]] = True

@@ -54,12 +54,14 @@ def surroundings(scene: Scene, settings: Settings, number: int) -> Surroundings:
     """Return what is around mesh ``number``: its map, or the triangles that rays are cast at."""
     method = resolve(settings).environment
     assert method is not None
-    looks = method.traits == "map"
-    faces = drawn_faces(environment_passes(scene, settings, number)) if looks else ()
-    world = place_meshes(scene.meshes)
-    places = world.world[:, :3]
-    triangles = np.empty((0, 3, 3)) if looks else places[world.corners]
-    least = OWN_SURFACE * float(np.ptp(places, axis=0).max())
+    faces: tuple[Texture, ...] = ()
+    triangles, least = np.empty((0, 3, 3)), 0.0
+    if method.traits == "map":
+        faces = drawn_faces(environment_passes(scene, settings, number))
+    else:
+        world = place_meshes(scene.meshes)
+        places = world.world[:, :3]
+        triangles, least = places[world.corners], OWN_SURFACE * float(np.ptp(places, axis=0).max())
     return Surroundings(faces, triangles, least, partial(_seen_colors, scene, settings), scene.background[:3])
 
 
