@@ -17,6 +17,8 @@ class FocusWalk(QObject):
         self._help = help_pane
         self._last: dict[QWidget, QWidget] = {}
         """The stop that had the keyboard last in each pane."""
+        self._under: dict[QWidget, QWidget] = {}
+        """What had the keyboard before each overlay took it."""
         self.is_by_mouse = False
         """Whether the focus was given by a click: then the keys go on stepping."""
         the_application().focusChanged.connect(self._focus_moved)
@@ -30,6 +32,13 @@ class FocusWalk(QObject):
     def _focus_moved(self, before: QWidget | None, now: QWidget | None) -> None:
         if now is not None and now.window() is self.window:
             self.is_by_mouse = QApplication.mouseButtons() != Qt.MouseButton.NoButton
+            over = self._overlay(now)
+            if over is not None and before is not None and self._overlay(before) is not over:
+                self._under[over] = before
+
+    def _overlay(self, widget: QWidget) -> QWidget | None:
+        overlays = self.window.overlays.all()
+        return next((over for over in overlays if over is widget or over.isAncestorOf(widget)), None)
 
     def panes(self) -> list[QWidget]:
         """Return what Tab walks through: a page of keys alone where one is open, else the main view first."""
@@ -44,15 +53,21 @@ class FocusWalk(QObject):
     def go(self, *, is_forward: bool) -> bool:
         """Go to the next stop, or back to the one before; return whether there is one.
 
-        Qt asks for this also when what has the keyboard is being hidden: then it goes to the first stop.
+        Qt asks for this also when what has the keyboard is being hidden: then it goes back to what had it before an
+        overlay, else to the first stop; the arrows go on as they did.
         """
         now, panes = self.window.focusWidget(), self.panes()
-        if now is not None and not now.isVisible():
-            stop = first_stop(panes)
+        if now is None or now.isVisible():
+            stop, reason = next_stop(tab_stops(panes), now, is_forward=is_forward), Qt.FocusReason.TabFocusReason
         else:
-            stop = next_stop(tab_stops(panes), now, is_forward=is_forward)
+            over = self._overlay(now)
+            under = None if over is None else self._under.get(over)
+            if under is not None and under in tab_stops(panes):
+                stop, reason = under, Qt.FocusReason.OtherFocusReason
+            else:
+                stop, reason = first_stop(panes), GIVEN_BACK
         if stop is not None:
-            give_focus(stop)
+            give_focus(stop, reason)
         return stop is not None
 
     def go_pane(self, direction: int) -> None:

@@ -150,9 +150,13 @@ class Overlays(QObject):
             height = max(self.ask_bar.heightForWidth(width), self.ask_bar.sizeHint().height())
             self.ask_bar.setGeometry(inside.center().x() - width // 2, inside.top() + 8, width, height)
 
+    def all(self) -> tuple[QWidget, ...]:
+        """Return all overlays, the topmost first."""
+        return self.keys.editor, self.key_help, self.scenes, self.ask_bar
+
     def close_top(self) -> bool:
         """Close the overlay on top; return whether there was one."""
-        for overlay in (self.keys.editor, self.key_help, self.scenes, self.ask_bar):
+        for overlay in self.all():
             if overlay.isVisible():
                 overlay.hide()
                 return True

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QAbstractButton, QApplication, QSplitterHandle, QT
 from app.window import focus_walk
 from app.window.main_window import MainWindow
 from tests.covering import is_everything
-from widgets.basics.accessibility import ArrowGroup, tab_stops
+from widgets.basics.accessibility import ArrowGroup, KeyClaim, tab_stops
 from widgets.basics.theme import current_theme
 from widgets.space.scene_view import SceneView
 
@@ -218,6 +218,25 @@ def test_f6_walks_the_panes_and_escape_comes_back(window: MainWindow) -> None:
     """F6 and Shift+F6 are mirror images; Escape gives the keyboard to the main view and only then does more."""
     for page in PAGES:
         check_f6(window, page)
+
+
+@pytest.mark.own_window
+@pytest.mark.parametrize("reason", [Qt.FocusReason.MouseFocusReason, Qt.FocusReason.TabFocusReason])
+@pytest.mark.parametrize("opened", ["choose_scene", "show_keys", "go_to_pixel"])
+def test_what_lay_over_the_page_gives_the_keyboard_back(
+    window: MainWindow, opened: str, reason: Qt.FocusReason
+) -> None:
+    """The view had the arrows only if Tab had gone there, and has them after the list just as before."""
+    page = window.page
+    page.show_view("scene")
+    view = page.main_view()
+    view.setFocus(reason)
+    claim = view.findChild(KeyClaim)
+    window.run_action(opened)
+    assert window.focusWidget() is not view
+    QTest.keyClick(window.focusWidget(), Qt.Key.Key_Escape)
+    assert window.focusWidget() is view
+    assert claim.is_kept == (reason is Qt.FocusReason.TabFocusReason)
 
 
 @pytest.mark.own_window

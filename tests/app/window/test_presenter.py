@@ -145,6 +145,7 @@ def test_escape_ends_run_editor_message_orbiting_pin_and_presenting_in_this_orde
     page.show_view("scene")
     window.presenter.arrange()
     window.session.set_pin((20, 20))
+    page.main_view().clearFocus()  # The timeline, put away by presenting, gave it the keyboard but not the arrows.
     page.main_view().setFocus(Qt.FocusReason.TabFocusReason)
     claim = page.main_view().findChild(KeyClaim)
     window.messages.show_message(Message(MessageKind.WARNING, "A message that stays."))

@@ -223,6 +223,7 @@ def test_a_condition_is_a_breakpoint(window: MainWindow) -> None:
 
 @pytest.mark.own_window
 def test_escape_closes_one_thing_at_a_time(window: MainWindow) -> None:
+    window.page.take_focus()
     window.session.set_pin((3, 3))
     window.run_action("go_to_pixel")
     window.overlays.toggle_keys()
@@ -231,6 +232,7 @@ def test_escape_closes_one_thing_at_a_time(window: MainWindow) -> None:
         QTest.keyClick(window, Qt.Key.Key_Escape)
         assert not visible.isVisible()
         assert window.session.pin == (3, 3)
+        assert window.overlays.ask_bar.isAncestorOf(window.focusWidget()) == window.overlays.ask_bar.isVisible()
     QTest.keyClick(window, Qt.Key.Key_Escape)
     assert window.session.pin is None
 
