@@ -58,7 +58,10 @@ class FocusWalk(QObject):
         """
         now, panes = self.window.focusWidget(), self.panes()
         if now is None or now.isVisible():
-            stop, reason = next_stop(tab_stops(panes), now, is_forward=is_forward), Qt.FocusReason.TabFocusReason
+            stop, reason = (
+                next_stop(tab_stops(panes), now, is_forward=is_forward),
+                Qt.FocusReason.TabFocusReason,
+            )
         else:
             over = self._overlay(now)
             under = None if over is None else self._under.get(over)

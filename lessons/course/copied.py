@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from math import degrees
 from typing import Any
 
@@ -214,7 +215,8 @@ def _typed(scene: AnyScene) -> dict[str, Any]:
     if scene.kind == "segments" and not is_flat:
         raise ValueError(_NAMED)
     table = {"size": list(scene.size), scene.kind: window[..., : 2 if is_flat else 4].tolist()}
-    if scene.attributes is not None and scene.kind == "triangles":
+    plain = replace(scene, attributes=None).attributes  # What corners have of which nothing is said.
+    if scene.kind == "triangles" and not _is_same(scene.attributes, plain):
         table["values"] = np.asarray(scene.attributes).tolist()
     if scene.background.any():
         table["background"] = scene.background.tolist()

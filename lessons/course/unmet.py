@@ -20,6 +20,9 @@ KEPT_TEXTS = {
 }
 COUNTED = {"drawn": "{} drawn", "tested": "{} tested", "seen": "{} seen"}
 """Names of numbers that are counts of pixels, and what is said of these."""
+OF_EDITED = {"drawn": "{} drawn by your version", "twice": "{} drawn twice by your version"}
+_EDITED = re.compile(r"edited\((\w+)(?:\((\d+), (\d+)\))?\) [=<>!]")
+"""A number that is asked of the edited listings: of the picture, or at a pixel."""
 _COLOR = re.compile(r"(?:linear|shown)\((\d+), (\d+), \d\)")
 """A quoted number that is a channel of a pixel."""
 
@@ -106,7 +109,7 @@ def _holds(until: UntilPart, situation: Situation, start: Situation) -> str:
     if name in COUNTED:
         return _pixels(value_of(name, situation), COUNTED[name])
     if name.startswith("edited("):
-        return "your version gives other values" if situation.edits else "the listing is unchanged"
+        return _edited(text, situation) if situation.edits else "the listing is unchanged"
     if name.startswith("differs("):
         count = value_of(text[: text.index(")") + 1], situation)
         return f"{count:,} {'pixel differs' if count == 1 else 'pixels differ'}"
@@ -118,6 +121,21 @@ def _holds(until: UntilPart, situation: Situation, start: Situation) -> str:
         count = value_of(text[: text.index(")") + 1], situation)
         return f"the largest difference of a colour is {count} of 255"
     return ""
+
+
+def _edited(text: str, situation: Situation) -> str:
+    """Return what the edited listings give where ``text`` asks for something else."""
+    found = _EDITED.match(text)
+    name, x, y = found.groups() if found is not None else ("", None, None)
+    if x is None and name in OF_EDITED:
+        return _pixels(value_of(f"edited({name})", situation), OF_EDITED[name])
+    if x is None or name not in ("drawn", "u", "v"):
+        return "your version gives other values"
+    value = value_of(f"edited({name}({x}, {y}))", situation)
+    if name != "drawn":
+        return f"your version finds {name} = {value:.4g} at pixel ({x}, {y})"
+    often = {0: "does not draw", 1: "draws"}.get(value, "draws more than once")
+    return f"your version {often} pixel ({x}, {y})"
 
 
 _SAID: dict[str, Callable[[UntilPart, Situation, Situation], str]] = {

@@ -232,7 +232,9 @@ def test_escape_closes_one_thing_at_a_time(window: MainWindow) -> None:
         QTest.keyClick(window, Qt.Key.Key_Escape)
         assert not visible.isVisible()
         assert window.session.pin == (3, 3)
-        assert window.overlays.ask_bar.isAncestorOf(window.focusWidget()) == window.overlays.ask_bar.isVisible()
+        assert (
+            window.overlays.ask_bar.isAncestorOf(window.focusWidget()) == window.overlays.ask_bar.isVisible()
+        )
     QTest.keyClick(window, Qt.Key.Key_Escape)
     assert window.session.pin is None
 

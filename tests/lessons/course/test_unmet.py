@@ -20,3 +20,23 @@ def test_a_task_says_what_it_lacks_until_it_is_done(lesson: Lesson) -> None:
         before, after = situation_of(start), situation_of(solved(start, step.solution))
         assert unmet(step.until, before, before).startswith("Not yet: ")
         assert unmet(step.until, after, before) == ""
+
+
+@pytest.mark.parametrize(
+    ("name", "number", "line", "said"),
+    [
+        ("shared-edges", 5, "value > 0", "no pixel is drawn twice by your version"),
+        ("where-d-comes-from", 5, "D = dy - dx", "your version does not draw pixel (1, 1)"),
+    ],
+)
+def test_an_edit_that_does_not_do_it_is_told_what_it_does(
+    name: str, number: int, line: str, said: str
+) -> None:
+    lesson = shipped().lessons[name]
+    step = lesson.steps[number]
+    assert step.until is not None
+    assert step.solution is not None
+    [(listing, old, _)] = step.solution.edit
+    start = States(lesson).of_step(number)
+    wrong = solved(start, step.solution.model_copy(update={"edit": ((listing, old, line),)}))
+    assert unmet(step.until, situation_of(wrong), situation_of(start)) == f"Not yet: {said}."
