@@ -197,11 +197,12 @@ class StartPage(Page):
 
     @Slot()
     def _open_first(self) -> None:
-        """Open the first lesson or scene that was found."""
-        cards = [*self.lesson_list.cards, *self.cards.cards] if self.search.text().strip() else []
-        first = next((card for card in cards if card.isVisible()), None)
-        if first is not None:
-            first.click()
+        """Open the lesson or scene that was found: the one of this title, else one that begins so, else the first."""
+        text = self.search.text().strip().casefold()
+        cards = [card for card in (*self.lesson_list.cards, *self.cards.cards) if card.isVisible()]
+        if text and cards:
+            titles = {card: card.text().casefold() for card in cards}
+            min(cards, key=lambda card: (titles[card] != text, not titles[card].startswith(text))).click()
 
     @Slot(Change)
     def _follow(self, what: Change) -> None:

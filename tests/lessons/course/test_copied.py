@@ -58,7 +58,7 @@ def test_what_is_copied_opens_the_same(
             state = reopened(tmp_path, line)
             assert (state.stage, state.pixel, state.settings) == (stage, (1, 2), settings), line
             assert state.position(state.run) == position, line
-    assert "0.0, 0.0, 0.0, 1.0" not in line  # Black is what corners have of which nothing is said.
+    assert "0, 0, 0, 1" not in line  # Black is what corners have of which nothing is said.
     assert np.array_equal(render(state.scene, state.settings).color, render(scene, settings).color)
 
 
