@@ -8,6 +8,7 @@ import numpy as np
 
 from core.depth.early_depth import LEFT
 from core.families import mirrors_of
+from core.numeric.large_arrays import ScratchBuffers
 from core.records.arrays import Floats, read_only
 from core.records.passes import PlannedPass, without_passes
 from core.resolved import resolve
@@ -134,9 +135,9 @@ def map_matrix(planned: PlannedPass) -> Floats:
 @lru_cache(maxsize=4)
 def drawn_depth(planned: PlannedPass) -> Floats:
     """Return the depth (H, W) float64 that a pass leaves."""
-    # By its name: drawing asks for passes.
+    # By its name: drawing asks for passes, in the midst of a picture that works in the memory of the thread.
     draw_picture = import_module("core.fast_path.draw").draw_picture
-    picture = draw_picture(planned.scene, planned.settings, with_depth=True)
+    picture = draw_picture(planned.scene, planned.settings, with_depth=True, scratch=ScratchBuffers())
     return read_only(picture.depth.astype(np.float64))
 
 

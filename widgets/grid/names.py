@@ -112,7 +112,10 @@ def _edge_names(
     metrics: QFontMetrics,
     is_free: Callable[[QRectF], bool],
 ) -> list[NameBox]:
-    """Return the name of each edge function beside its edge: outside of the triangle, or inside for want of room."""
+    """Return the name of each edge function beside its edge: outside of the triangle, or inside for want of room.
+
+    An edge beside which other names leave no place has none.
+    """
     names: list[NameBox] = []
     owner = f" {geometry.owner}" if geometry.owner else ""
     width, height = metrics.horizontalAdvance(f"E0{owner}") + 6, metrics.height()
@@ -132,6 +135,8 @@ def _edge_names(
         box = QRectF(0, 0, width, height)
         boxes = (moved_inside(box.translated(place - box.center()), viewport) for place in places)
         chosen = _best(boxes, [*vertices, *names], is_free)
+        if any(chosen.intersects(other) for other, _, _ in (*vertices, *names)):
+            continue  # Two texts on each other say nothing.
         names.append((chosen, f"E{edge}{owner}", theme.vertex_text[edge]))
     return names
 

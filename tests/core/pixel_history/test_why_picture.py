@@ -83,9 +83,9 @@ def check_pixels(scene: ClipScene | Scene, settings: Settings, pixels: list[tupl
     # Of several samples and of areas it is the history of the centre.
     at_centers = replace(settings, antialiasing="none")
     frame, source = render(scene, at_centers), TraceSource(scene, settings)
-    is_mixed = settings.antialiasing in ("fxaa", "temporal")
-    mixed = render(scene, settings) if is_mixed else frame
     drawn = source.settings
+    is_mixed = drawn.antialiasing in ("fxaa", "temporal")
+    mixed = render(scene, settings) if is_mixed else frame
     has_pale_pixels = drawn.polygon_mode == "wireframe" and has_intensities(drawn.line)
     for column, row in pixels:
         history = why(source, column, row)
@@ -97,7 +97,7 @@ def check_pixels(scene: ClipScene | Scene, settings: Settings, pixels: list[tupl
         assert frame.depth.dtype.type(history.final.depth) == frame.depth[at], (column, row)
         assert history.cover_count == frame.cover_count[at], (column, row)
         listed = {event.triangle for event in history.events} - {-1}
-        assert len(listed) + sum(history.counts.values()) == scene_triangle_count(scene)
+        assert len(listed) + sum(history.counts.values()) == scene_triangle_count(source.scene)
 
 
 @pytest.mark.parametrize("line", ["wu", "gupta-sproull"])

@@ -23,6 +23,7 @@ from core.study.planner.planning import look_at
 from core.trace.source import TraceSource
 from lessons.scenes import make_scene
 from tests.core.trace.fragment_listings import check_shade
+from tests.core.trace.trace_cases import SCENES
 
 BOX = replace(make_scene("box-in-light"), size=(96, 72))
 """A floor of 8 x 8 and a box of side 1 on it, in the size of the numbers below."""
@@ -157,6 +158,14 @@ def test_the_map_is_the_depth_buffer_of_its_pass_and_is_kept() -> None:
     moved = replace(BOX, camera=replace(BOX.camera, eye=np.array([3.0, 5, 5])))
     assert planned_passes(moved, chosen)[0] is planned
     assert planned_passes(BOX, Settings()) == () == planned_passes(BOX, replace(chosen, shading="flat"))
+
+
+@pytest.mark.parametrize("antialiasing", ["none", "msaa-4", "ssaa-4"])
+def test_a_map_that_is_drawn_in_the_midst_of_a_picture_leaves_it_as_it_is(antialiasing: str) -> None:
+    scene, chosen = SCENES["orthographic"], Settings(shadow="map", antialiasing=antialiasing)
+    drawn_depth.cache_clear()
+    first = draw_picture(scene, chosen).pixels
+    assert np.array_equal(first, draw_picture(scene, chosen).pixels)
 
 
 def test_outside_of_the_map_all_is_lit() -> None:

@@ -4,7 +4,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from PySide6.QtCore import QRect
 
@@ -16,6 +16,7 @@ from widgets.grid.view import GridView, place
 pytestmark = pytest.mark.usefixtures("qapp")
 
 
+@example([(0, 0), (0, 0), (4, 0)])
 @given(st.lists(st.tuples(st.integers(0, 24), st.integers(0, 24)), min_size=3, max_size=3))
 def test_names_of_vertices_and_edges_never_lie_on_each_other(corners: list[tuple[int, int]]) -> None:
     geometry = GridGeometry(np.array(corners) / 2, np.array([[0, 1, 2]]))
