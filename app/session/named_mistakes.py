@@ -67,7 +67,9 @@ def exercise_about(family: str) -> str:
 def lesson_about(mistake: str) -> tuple[str, int] | None:
     """Return name and step, from 0, of a lesson that asks for something which this mistake gets wrong."""
     for name, lesson in shipped().lessons.items():
-        for number, step in enumerate(lesson.steps):
-            if mistake in step.mistakes or any(wrong.mistake == mistake for wrong in step.wrong):
+        for number, step in enumerate(lesson.written_steps()):
+            if mistake in step.get("mistakes", ()) or any(
+                wrong.get("mistake") == mistake for wrong in step.get("wrong", ())
+            ):
                 return name, number
     return None

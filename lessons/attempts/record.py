@@ -283,13 +283,13 @@ def standings(attempts: Sequence[Attempt], lesson: Lesson) -> tuple[Standing, ..
 
     A step to look at asks nothing: it is done when a later one was tried.
     """
-    found = [Standing.OPEN] * len(lesson.steps)
+    found = [Standing.OPEN] * lesson.step_count
     for attempt, step in _tries(attempts, lesson):
         if found[step] is not Standing.DONE:
             found[step] = Standing.DONE if attempt.score == 1 else Standing.SEEN
     last = max((k for k, standing in enumerate(found) if standing is not Standing.OPEN), default=0)
-    for step, part in enumerate(lesson.steps[:last]):
-        if part.answer is None and part.until is None:
+    for step in range(last):
+        if not _asks(lesson, step):
             found[step] = Standing.DONE
     return tuple(found)
 
@@ -303,13 +303,12 @@ def place_in(attempts: Sequence[Attempt], lesson: Lesson) -> int:
     if not tries:
         return 0
     found, (attempt, last) = standings(attempts, lesson), tries[-1]
-    asked = [k for k, part in enumerate(lesson.steps) if part.answer is not None or part.until is not None]
+    asked = [k for k in range(lesson.step_count) if _asks(lesson, k)]
     is_behind = found[last] is Standing.DONE or attempt.verdict == SHOWN
     if is_behind and all(found[k] is not Standing.OPEN for k in asked):
-        return len(lesson.steps)
+        return lesson.step_count
     step = last + (found[last] is Standing.DONE)
-    is_left = any(part.answer is not None or part.until is not None for part in lesson.steps[step:])
-    return step if is_left else len(lesson.steps)
+    return step if any(k >= step for k in asked) else lesson.step_count
 
 
 def next_place(attempts: Sequence[Attempt], course: Course) -> Place | None:
@@ -321,7 +320,7 @@ def next_place(attempts: Sequence[Attempt], course: Course) -> Place | None:
     latest = None if last is None else course.lessons.get(last.template.split("/")[1])
     for each in [*([] if latest is None else [latest]), *course.lessons.values()]:
         step = place_in(attempts, each)
-        if step < len(each.steps):
+        if step < each.step_count:
             return Place(each, step)
     return None
 
@@ -337,9 +336,14 @@ def recall_for(attempts: Sequence[Attempt], course: Course, lesson: Lesson) -> s
     lessons = list(course.lessons.values())
     for each in [lesson, *reversed(lessons[: lessons.index(lesson)])]:
         about = course.recalled(each)
-        if about is not None and place_in(attempts, about) == len(about.steps):
-            return each.part.recall or ""
+        if about is not None and place_in(attempts, about) == about.step_count:
+            return str(each.head.get("recall", ""))
     return ""
+
+
+def _asks(lesson: Lesson, step: int) -> bool:
+    """Return whether a step has a question or a task."""
+    return any(key in lesson.written_steps()[step] for key in ("answer", "until"))
 
 
 def _tries(attempts: Sequence[Attempt], lesson: Lesson) -> list[tuple[Attempt, int]]:
@@ -352,6 +356,6 @@ def _tries(attempts: Sequence[Attempt], lesson: Lesson) -> list[tuple[Attempt, i
         number = attempt.template.removeprefix(prefix)
         if number == "0":
             found = []
-        elif number.isdecimal() and 1 <= int(number) <= len(lesson.steps):
+        elif number.isdecimal() and 1 <= int(number) <= lesson.step_count:
             found.append((attempt, int(number) - 1))
     return found

@@ -1,20 +1,23 @@
 """The lessons that ship with the program, in the order of learning: files, minutes, and the slides that they cover."""
 
 import json
+import re
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
-from functools import cache
+from functools import cache, cached_property
 from hashlib import sha256
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from core import STAGES
-from lessons.course.record import LessonPart, StepPart, word_count
 from lessons.exercises.toml_file import TomlFile
 from lessons.named_files import read_files, read_folders
+
+if TYPE_CHECKING:
+    from lessons.course.record import LessonPart, StepPart
 
 # A lesson as it is read from its file.
 
@@ -26,51 +29,64 @@ REVISIONS = 1_000_000
 
 @dataclass(frozen=True, eq=False)
 class Lesson:
-    """One lesson; a step of it is named by its number, from 0."""
+    """One lesson; a step of it is named by its number, from 0.
+
+    To be listed, a lesson that ships with the program is read to its first step; the rest is read and checked when it
+    is first asked for: ValueError and OSError as `read_lesson`.
+    """
 
     name: str
     """Of the file."""
-    part: LessonPart
-    """What the file holds."""
-    file: TomlFile
-    """Knows the line of what is wrong."""
+    path: Path
+    """The file."""
+    head: Mapping[str, Any]
+    """What it says before its first step, at least."""
+    step_count: int
 
-    @property
-    def path(self) -> Path:
-        """The file."""
-        return self.file.path
+    @cached_property
+    def file(self) -> TomlFile:
+        """What is written; it knows the line of what is wrong."""
+        return TomlFile(self.path)
+
+    @cached_property
+    def part(self) -> "LessonPart":
+        """What is written, as a record."""
+        return _checked(self.file)
 
     @property
     def title(self) -> str:
         """What it is called."""
-        return self.part.title
+        return str(self.head["title"])
 
     @property
     def question(self) -> str:
         """What one wants to know."""
-        return self.part.question
+        return str(self.head["question"]).strip()
 
     @property
     def minutes(self) -> int:
         """How long it takes, roughly."""
-        return self.part.minutes
+        return int(self.head["minutes"])
 
     @property
-    def steps(self) -> list[StepPart]:
+    def steps(self) -> "list[StepPart]":
         """From the first to the last."""
         return self.part.step
+
+    def written_steps(self) -> list[dict[str, Any]]:
+        """Return the steps as they stand in the file, which takes no check."""
+        return list(self.file.values["step"])
 
     @property
     def stage(self) -> str:
         """The first stage that it shows."""
-        return self.part.state.stage or self.steps[0].state.stage or STAGES[0]
+        return self.head.get("state", {}).get("stage") or self.steps[0].state.stage or STAGES[0]
 
     @property
     def revision(self) -> int:
         """A number that differs where another step is asked, and stays where only texts change."""
         asked = [
-            [step.kind, json.dumps(self.file.values["step"][number].get("answer"), sort_keys=True)]
-            for number, step in enumerate(self.steps)
+            [step["kind"], json.dumps(step.get("answer"), sort_keys=True)] for step in self.written_steps()
         ]
         digest = sha256(json.dumps(asked).encode()).digest()
         return 1 + int.from_bytes(digest[:8], "big") % (REVISIONS - 1)
@@ -84,7 +100,7 @@ STEP_PREFIX = "lesson/"
 
 
 def read_lesson(path: Path) -> Lesson:
-    """Return the lesson of a file.
+    """Return the lesson of a file, read whole.
 
     Raises ValueError for what is no lesson: one sentence with file, line and what was expected; OSError if the file
     cannot be read. Whether its scenes, events, answers and numbers hold is said by `lessons.course.validation`.
@@ -97,13 +113,32 @@ def read_lesson(path: Path) -> Lesson:
     file = TomlFile(path)
     if "step" not in file.values:
         raise ValueError(f"{path}: line 1: expected a lesson, with [[step]]")
-    lesson = Lesson(stem, file.checked(LessonPart), file)
-    for number, (one, other) in enumerate(pairwise(lesson.steps), 1):
+    part = _checked(file)
+    lesson = Lesson(stem, path, file.values, len(part.step))
+    vars(lesson).update(file=file, part=part)  # What is asked for later is here already.
+    return lesson
+
+
+def _checked(file: TomlFile) -> "LessonPart":
+    """Return a lesson as a record; ValueError for what is none."""
+    from lessons.course.record import LessonPart  # With all that its names are compared with: not for a list.
+
+    part = file.checked(LessonPart)
+    for number, (one, other) in enumerate(pairwise(part.step), 1):
         if one.kind == other.kind == "look":
             raise file.error(
                 ("step", number, "kind"), "expected a task after a step to look at, got another look"
             )
-    return lesson
+    return part
+
+
+_STEP = re.compile(r"^\[\[step\]\]$", re.MULTILINE)
+
+
+def _listed(path: Path) -> Lesson:
+    """Return a lesson that ships with the program, read to its first step."""
+    head, *steps = _STEP.split(path.read_text(encoding="utf-8"))
+    return Lesson(path.stem, path, tomllib.loads(head), len(steps))
 
 
 # How long a lesson takes: a plain sum over its steps, so that the minutes of all lessons mean the same.
@@ -125,7 +160,9 @@ def estimated_minutes(lesson: Lesson) -> float:
     return seconds / 60
 
 
-def _seconds(step: StepPart) -> float:
+def _seconds(step: "StepPart") -> float:
+    from lessons.course.record import word_count
+
     words = sum(word_count(text) for text in (step.text, step.task, step.after) if text)
     seconds = LOOK + 60 * words / WORDS_A_MINUTE
     if step.answer is not None:
@@ -216,10 +253,13 @@ class Course:
 
     def recalled(self, lesson: Lesson) -> Lesson | None:
         """Return the lesson that the exercise before a lesson is about; ``None``: none is known."""
-        if lesson.part.recall_of is not None:
-            return self.lessons.get(lesson.part.recall_of)
-        others = (each for each in self.lessons.values() if each is not lesson)
-        return next((each for each in others if lesson.part.recall in each.part.exercises), None)
+        if "recall_of" in lesson.head:
+            return self.lessons.get(lesson.head["recall_of"])
+        others, asked = (
+            (each for each in self.lessons.values() if each is not lesson),
+            lesson.head.get("recall"),
+        )
+        return next((each for each in others if asked in each.head.get("exercises", ())), None)
 
     @property
     def by_stage(self) -> dict[str, list[Lesson]]:
@@ -260,9 +300,9 @@ def _ordered() -> dict[str, Any]:
 
 @cache
 def shipped() -> Course:
-    """Return the lessons that ship with the program, read once; those that are not in the order come last."""
+    """Return the lessons that ship with the program, listed once; those that are not in the order come last."""
     paths = [path for path in sorted(FOLDER.glob("*.toml")) if path.name not in DATA]
-    found, problems = read_files(paths, read_lesson, "a lesson", {})
+    found, problems = read_files(paths, _listed, "a lesson", {})
     order = [name for names in chapters().values() for name in names]
     names = [name for name in order if name in found] + [name for name in found if name not in order]
     return Course({name: found[name] for name in names}, tuple(problems))

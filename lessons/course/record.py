@@ -6,7 +6,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from core.shaders.presets import PRESETS
 from lessons.exercises.record import AnswerPart, ScenePart
-from lessons.exercises.toml_file import (
+from lessons.exercises.toml_values import (
     AnyMistake,
     AnyNumber,
     MistakeName,

@@ -26,7 +26,7 @@ from lessons.exercises.asked_text import parts_of
 from lessons.exercises.numbers import Draws, Number, number_text, reject
 from lessons.exercises.question import Draft, Refutation
 from lessons.exercises.record import ScenePart
-from lessons.exercises.toml_file import Range
+from lessons.exercises.toml_values import Range
 from lessons.lectures.scenes import scene_named
 from lessons.mistakes.shelf import RULES, SHELF
 from lessons.small_scenes import segment_scene, triangle_scene

@@ -13,7 +13,7 @@ from core.setting_texts import settings_from_texts
 from lessons.exercises.answers.choices import CHOICE_LIMIT, ORDER_LIMIT
 from lessons.exercises.answers.marked import SIDE_LIMIT, read_art
 from lessons.exercises.numbers import SEED_LIMIT
-from lessons.exercises.toml_file import (
+from lessons.exercises.toml_values import (
     AnyNumber,
     Coordinate,
     ExactNumber,

@@ -57,3 +57,9 @@ def test_neither_the_window_nor_a_colour_map_waits_for_a_typesetter_chart_or_oth
     assert (
         not {"core.pixel_history", "core.shaders.linking", "core.lanes.nodes", "core.trees.levels"} & imported
     )
+
+
+def test_the_list_of_lessons_waits_for_nothing_that_only_an_open_lesson_needs() -> None:
+    imported = imported_by("from app.pages.lessons.lesson_list import read_lessons; read_lessons()")
+    assert "lessons.course.catalogue" in imported
+    assert not {"lessons.course.record", "lessons.mistakes.shelf", "lessons.exercises.toml_values"} & imported

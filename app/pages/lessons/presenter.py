@@ -66,6 +66,8 @@ class LessonPresenter(QObject):
         """How far each lesson is, by its name and the user, since the program was started."""
         self._course: Course | None = None
         """The lessons that can be opened; ``None``: they were not read yet."""
+        self._has_texts = False
+        """Whether all steps of the lessons were read, too."""
         self._reading = Job(self, (ValueError, OSError), succeeded=self._list, failed=self._refuse_list)
         self._job = Job(self, (ValueError, OSError, MemoryError), succeeded=self._begin, failed=self._refuse)
         self._wanted: tuple[Lesson | str, int | None] | None = None
@@ -142,9 +144,9 @@ class LessonPresenter(QObject):
 
     def about(self) -> dict[str, str]:
         """Return the texts of the lessons that were read, by the names of their entries."""
-        lessons = () if self._course is None else self._course.lessons.values()
+        lessons = () if self._course is None or not self._has_texts else self._course.lessons.values()
         return {
-            str(lesson.path): " ".join([lesson.question, *(step.text for step in lesson.steps)])
+            str(lesson.path): " ".join([lesson.question, *(step["text"] for step in lesson.written_steps())])
             for lesson in lessons
         }
 
@@ -164,8 +166,8 @@ class LessonPresenter(QObject):
         return f"Back to: {_place(lesson, number)}"
 
     def read(self) -> None:
-        """Read the lessons, to be listed, unless they are known."""
-        if self._course is None:
+        """Read the lessons, to be listed with their texts, unless they are known."""
+        if not self._has_texts:
             self._reading.call(_whole_course)
 
     @Slot(object)
@@ -174,7 +176,7 @@ class LessonPresenter(QObject):
 
     @Slot(object)
     def _list(self, course: "Course") -> None:
-        self._course = course
+        self._course, self._has_texts = course, True
 
     # Opening and closing.
 
@@ -380,10 +382,13 @@ def _place(lesson: "Lesson", number: int) -> str:
 
 
 def _whole_course() -> "Course":
-    """Read the lessons: off the GUI thread."""
+    """Read the lessons with the texts of their steps: off the GUI thread."""
     from app.files.user_folders import whole_course
 
-    return whole_course()
+    course = whole_course()
+    for lesson in course.lessons.values():
+        lesson.written_steps()
+    return course
 
 
 def _found(wanted: "Lesson | str | Path", step: int | None) -> _Found:

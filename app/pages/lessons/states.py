@@ -93,7 +93,7 @@ def recall_record(
 ) -> LessonStepRecord:
     """Return the exercise of an earlier lesson that is asked before the first step."""
     draft, template = question.draft, question.template
-    asking = (each for each in course.lessons.values() if each.part.recall == template.name)
+    asking = (each for each in course.lessons.values() if each.head.get("recall") == template.name)
     about = course.recalled(lesson if lesson.part.recall == template.name else next(asking, lesson))
     whence = f"From the lesson “{about.title}”" if about else f"From the exercise “{template.title}”"
     return LessonStepRecord(

@@ -36,7 +36,11 @@ def lesson_of(folder: Path, text: str, name: str = "whose-pixel") -> Lesson:
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_a_lesson_says_what_is_so(path: Path) -> None:
-    validate(read_lesson(path), shipped().lessons)
+    lesson = read_lesson(path)
+    validate(lesson, shipped().lessons)
+    listed, part = shipped().named(lesson.name), lesson.part
+    assert (listed.title, listed.question, listed.minutes) == (part.title, part.question, part.minutes)
+    assert (listed.stage, listed.step_count) == (part.state.stage, len(part.step))
 
 
 @pytest.mark.parametrize("matrices", ["modelViewMatrix * projectionMatrix", "projectionMatrix"])
