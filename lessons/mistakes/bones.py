@@ -2,7 +2,7 @@
 
 from math import cos, radians
 
-from lessons.mistakes.twin import WrongRule
+from lessons.mistakes.twin import wrong_rule
 
 Place = tuple[int, int]
 
@@ -13,53 +13,31 @@ def turned_about(point: Place, head: Place) -> Place:
     return head[0] - y, head[1] + x
 
 
-def without_inverse_bind(point: Place, head: Place) -> Place:
-    """Turn the point as if it were given from the joint, and put it there."""
-    return head[0] - point[1], head[1] + point[0]
-
-
-def pose_first(point: Place, head: Place) -> Place:
-    """Apply the pose (turn, then move to the joint) first, and the inverse bind (move from the joint) after it."""
-    x, y = without_inverse_bind(point, head)
-    return x - head[0], y - head[1]
-
-
 def width_kept(degrees: float) -> tuple[float]:
     """Return the percentage of its width that a joint bent by an angle keeps where both weights are 1/2."""
     return (100 * abs(cos(radians(degrees) / 2)),)
 
 
-RULES = (
-    WrongRule(
-        "no-inverse-bind",
-        "The position was turned as if the joint were its origin. The inverse bind first takes it to the bone's space.",
-        turned_about,
-        without_inverse_bind,
-        ((6, 1), (4, 0)),
-        ((0, 0), (0, 0)),
-    ),
-    WrongRule(
-        "pose-before-bind",
-        "The pose came before the inverse bind. The matrix nearest to the point works first: that is the inverse bind.",
-        turned_about,
-        pose_first,
-        ((6, 1), (4, 0)),
-        ((0, 0), (0, 0)),
-    ),
-    WrongRule(
-        "width-of-whole-angle",
-        "The cosine of the whole angle was taken. Both halves of the bend turn by half of it from the middle.",
-        width_kept,
-        lambda degrees: (100 * abs(cos(radians(degrees))),),
-        (60.0,),
-        (0.0,),
-    ),
-    WrongRule(
-        "width-in-proportion",
-        "The width fell in proportion to the angle. The mixed point lies on a chord, and its distance is a cosine.",
-        width_kept,
-        lambda degrees: (100 * (1 - degrees / 180),),
-        (60.0,),
-        (0.0,),
-    ),
-)
+@wrong_rule(turned_about, shows=((6, 1), (4, 0)), hides=((0, 0), (0, 0)))
+def no_inverse_bind(point: Place, head: Place) -> Place:
+    """The position was turned as if the joint were its origin. The inverse bind first takes it to the bone's space."""
+    return head[0] - point[1], head[1] + point[0]
+
+
+@wrong_rule(turned_about, shows=((6, 1), (4, 0)), hides=((0, 0), (0, 0)))
+def pose_before_bind(point: Place, head: Place) -> Place:
+    """The pose came before the inverse bind. The matrix nearest to the point works first: that is the inverse bind."""
+    x, y = no_inverse_bind(point, head)
+    return x - head[0], y - head[1]
+
+
+@wrong_rule(width_kept, shows=(60.0,), hides=(0.0,))
+def width_of_whole_angle(degrees: float) -> tuple[float]:
+    """The cosine of the whole angle was taken. Both halves of the bend turn by half of it from the middle."""
+    return (100 * abs(cos(radians(degrees))),)
+
+
+@wrong_rule(width_kept, shows=(60.0,), hides=(0.0,))
+def width_in_proportion(degrees: float) -> tuple[float]:
+    """The width fell in proportion to the angle. The mixed point lies on a chord, and its distance is a cosine."""
+    return (100 * (1 - degrees / 180),)

@@ -14,7 +14,7 @@ from core.records.box_tree import BoxTree, Objects
 from core.trees.bounding_volumes import bvh
 from core.trees.octree import grow_octree
 from lessons.mistakes.transforms import Vector
-from lessons.mistakes.twin import Case, Twin, WrongRule
+from lessons.mistakes.twin import Case, Twin, wrong_rule
 from lessons.small_scenes import triangle_scene
 
 Box = tuple[Sequence[Any], Sequence[Any]]
@@ -26,26 +26,9 @@ def farthest_along(normal: Sequence[Any], offset: Any, box: Box) -> Vector:
     return (sum(n * (high if n > 0 else low) for n, low, high in zip(normal, *box, strict=True)) + offset,)
 
 
-def nearest_along(normal: Sequence[Any], offset: Any, box: Box) -> Vector:
-    """Return the distance of the corner farthest against it."""
-    return (sum(n * (low if n > 0 else high) for n, low, high in zip(normal, *box, strict=True)) + offset,)
-
-
 def dropped(planes: Sequence[tuple[Sequence[Any], Any]], box: Box) -> Vector:
     """Return 1 where a box lies outside of one of the planes as a whole, else 0."""
     return (int(any(farthest_along(normal, offset, box)[0] < 0 for normal, offset in planes)),)
-
-
-def dropped_without_corner(planes: Sequence[tuple[Sequence[Any], Any]], box: Box) -> Vector:
-    """Return 1 where no corner of a box lies inside of all planes."""
-    corners = product(*zip(*box, strict=True))
-    inside = (
-        all(
-            sum(n * x for n, x in zip(normal, corner, strict=True)) + offset >= 0 for normal, offset in planes
-        )
-        for corner in corners
-    )
-    return (int(not any(inside)),)
 
 
 def slab_ends(origin: Sequence[int], direction: Sequence[int], box: Box) -> list[tuple[Fraction, Fraction]]:
@@ -63,20 +46,9 @@ def way_through(origin: Sequence[int], direction: Sequence[int], box: Box) -> Ve
     return max(near for near, _ in ends), min(far for _, far in ends)
 
 
-def way_joined(origin: Sequence[int], direction: Sequence[int], box: Box) -> Vector:
-    """Return where a ray first comes between any two planes, and where it last leaves some."""
-    ends = slab_ends(origin, direction, box)
-    return min(near for near, _ in ends), max(far for _, far in ends)
-
-
 def nearest_hit(boxes: Sequence[tuple[int, int]]) -> Vector:
     """Return which of boxes, each with the distance where it begins and that of its hit, has the nearest hit."""
     return (min(range(len(boxes)), key=lambda k: boxes[k][1]),)
-
-
-def nearest_box(boxes: Sequence[tuple[int, int]]) -> Vector:
-    """Return which box begins nearest."""
-    return (min(range(len(boxes)), key=lambda k: boxes[k][0]),)
 
 
 def parts_by_number(centers: Sequence[int]) -> Vector:
@@ -84,22 +56,9 @@ def parts_by_number(centers: Sequence[int]) -> Vector:
     return len(centers) // 2, len(centers) - len(centers) // 2
 
 
-def parts_by_space(centers: Sequence[int]) -> Vector:
-    """Return how many lie in both halves of the space."""
-    middle = Fraction(min(centers) + max(centers), 2)
-    below = sum(center < middle for center in centers)
-    return below, len(centers) - below
-
-
 def entries(spans: Sequence[tuple[int, int]], middle: int) -> Vector:
     """Return how many of the spans touch the lower half of a cell, and how many the upper one."""
     return sum(low <= middle for low, _ in spans), sum(high >= middle for _, high in spans)
-
-
-def entries_by_centre(spans: Sequence[tuple[int, int]], middle: int) -> Vector:
-    """Return in how many halves their centres lie: each in one."""
-    below = sum(low + high < 2 * middle for low, high in spans)
-    return below, len(spans) - below
 
 
 def octants_of_centres(objects: Objects, items: Integers, lower: Floats, upper: Floats) -> list[Integers]:
@@ -150,59 +109,70 @@ TWINS = (
     ),
 )
 """Trees that lose what is seen."""
-RULES = (
-    WrongRule(
-        "nearest-corner-asked",
-        "The corner farthest against the plane's normal was asked. A box is outside as a whole only where even the"
-        " corner farthest along the normal is.",
-        farthest_along,
-        nearest_along,
-        ((1, 0), 0, ((-1, 0), (2, 1))),
-        ((1, 0), 0, ((2, 0), (2, 1))),
-    ),
-    WrongRule(
-        "no-corner-inside",
-        "The box was dropped as none of its corners is inside. A large box around the view has none inside, "
-        "either: it is outside only where all corners are outside of one and the same plane.",
-        dropped,
-        dropped_without_corner,
-        ((((1, 0), 1), ((-1, 0), 1)), ((-3, 0), (3, 1))),
-        ((((1, 0), 1), ((-1, 0), 1)), ((2, 0), (3, 1))),
-    ),
-    WrongRule(
-        "slabs-joined",
-        "The ways between the planes of both axes were joined. The ray is in the box only where it is between all "
-        "of them: from the largest entry to the smallest exit.",
-        way_through,
-        way_joined,
-        ((0, 0), (1, 1), ((2, 3), (6, 5))),
-        ((0, 0), (1, 1), ((2, 2), (5, 5))),
-    ),
-    WrongRule(
-        "nearest-box-wins",
-        "The box that begins nearest was taken. What it holds may lie farther than a hit in another box: the "
-        "nearest hit wins.",
-        nearest_hit,
-        nearest_box,
-        (((1, 9), (3, 4)),),
-        (((1, 2), (3, 4)),),
-    ),
-    WrongRule(
-        "space-halved",
-        "The space was halved. A bounding volume hierarchy cuts the sorted objects in the middle of their number, "
-        "wherever they lie.",
-        parts_by_number,
-        parts_by_space,
-        ((0, 1, 2, 3, 20),),
-        ((0, 1, 19, 20),),
-    ),
-    WrongRule(
-        TWINS[0].name,
-        TWINS[0].sentence,
-        entries,
-        entries_by_centre,
-        (((0, 3), (4, 9), (6, 8)), 5),
-        (((0, 3), (6, 8)), 5),
-    ),
+
+
+@wrong_rule(farthest_along, shows=((1, 0), 0, ((-1, 0), (2, 1))), hides=((1, 0), 0, ((2, 0), (2, 1))))
+def nearest_corner_asked(normal: Sequence[Any], offset: Any, box: Box) -> Vector:
+    """The corner farthest against the plane's normal was asked.
+
+    A box is outside as a whole only where even the corner farthest along the normal is.
+    """
+    return (sum(n * (low if n > 0 else high) for n, low, high in zip(normal, *box, strict=True)) + offset,)
+
+
+@wrong_rule(
+    dropped,
+    shows=((((1, 0), 1), ((-1, 0), 1)), ((-3, 0), (3, 1))),
+    hides=((((1, 0), 1), ((-1, 0), 1)), ((2, 0), (3, 1))),
 )
-"""Wrong formulas of boxes."""
+def no_corner_inside(planes: Sequence[tuple[Sequence[Any], Any]], box: Box) -> Vector:
+    """The box was dropped as none of its corners is inside.
+
+    A large box around the view has none inside, either: it is outside only where all corners are outside of one
+    and the same plane.
+    """
+    corners = product(*zip(*box, strict=True))
+    inside = (
+        all(
+            sum(n * x for n, x in zip(normal, corner, strict=True)) + offset >= 0 for normal, offset in planes
+        )
+        for corner in corners
+    )
+    return (int(not any(inside)),)
+
+
+@wrong_rule(way_through, shows=((0, 0), (1, 1), ((2, 3), (6, 5))), hides=((0, 0), (1, 1), ((2, 2), (5, 5))))
+def slabs_joined(origin: Sequence[int], direction: Sequence[int], box: Box) -> Vector:
+    """The ways between the planes of both axes were joined.
+
+    The ray is in the box only where it is between all of them: from the largest entry to the smallest exit.
+    """
+    ends = slab_ends(origin, direction, box)
+    return min(near for near, _ in ends), max(far for _, far in ends)
+
+
+@wrong_rule(nearest_hit, shows=(((1, 9), (3, 4)),), hides=(((1, 2), (3, 4)),))
+def nearest_box_wins(boxes: Sequence[tuple[int, int]]) -> Vector:
+    """The box that begins nearest was taken.
+
+    What it holds may lie farther than a hit in another box: the nearest hit wins.
+    """
+    return (min(range(len(boxes)), key=lambda k: boxes[k][0]),)
+
+
+@wrong_rule(parts_by_number, shows=((0, 1, 2, 3, 20),), hides=((0, 1, 19, 20),))
+def space_halved(centers: Sequence[int]) -> Vector:
+    """The space was halved.
+
+    A bounding volume hierarchy cuts the sorted objects in the middle of their number, wherever they lie.
+    """
+    middle = Fraction(min(centers) + max(centers), 2)
+    below = sum(center < middle for center in centers)
+    return below, len(centers) - below
+
+
+@wrong_rule(entries, shows=(((0, 3), (4, 9), (6, 8)), 5), hides=(((0, 3), (6, 8)), 5), twin=TWINS[0])
+def entries_by_centre(spans: Sequence[tuple[int, int]], middle: int) -> Vector:
+    """Return in how many halves their centres lie: each in one."""
+    below = sum(low + high < 2 * middle for low, high in spans)
+    return below, len(spans) - below

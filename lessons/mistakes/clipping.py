@@ -18,7 +18,7 @@ from core.lines.line_clipping import ClippedLines, ClipWindow, clipped_lines, po
 from core.lines.parametric_clipping import liang_barsky, on_borders
 from core.records.arrays import Floats
 from lessons.mistakes.transforms import Vector, dot
-from lessons.mistakes.twin import Case, Twin, WrongRule, clipped_ends
+from lessons.mistakes.twin import Case, Twin, clipped_ends, wrong_rule
 from lessons.small_scenes import Point, segment_scene
 
 # Mistakes in clipping lines to a rectangle.
@@ -203,14 +203,6 @@ def cut_at(start: Vector, end: Vector, border: int) -> Vector:
     return tuple(a + t * (b - a) for a, b in zip(start, end, strict=True))
 
 
-def new_corners_in_place(corners: Sequence[Vector], border: int) -> tuple[Vector, Vector]:
-    """Put the first crossing in the place of corner 0, and start the second side there, at the t that it had."""
-    (x, _), end = corners[0], corners[2]
-    moved = cut_at(corners[0], corners[1], border)
-    t = Fraction(border - x, end[0] - x)
-    return moved, tuple(a + t * (b - a) for a, b in zip(moved, end, strict=True))
-
-
 def area_in_window(polygon: Polygon, window: Polygon) -> Vector:
     """Return the area that Sutherland-Hodgman leaves of a polygon in a convex, counter-clockwise window."""
     for (x0, y0), (x1, y1) in pairwise([*window, window[0]]):
@@ -239,26 +231,10 @@ def rejected_blocks(edges: Sequence[Edge], blocks: int, size: int) -> frozenset[
     )
 
 
-def rejected_by_one_corner(edges: Sequence[Edge], blocks: int, size: int) -> frozenset[tuple[int, int]]:
-    """Look at the lower left pixel of each block alone."""
-    return frozenset(
-        (i, j)
-        for j in range(blocks)
-        for i in range(blocks)
-        if any(a * (i * size + 0.5) + b * (j * size + 0.5) + c < 0 for a, b, c, _ in edges)
-    )
-
-
 def owned_edges(corners: Sequence[Vector]) -> frozenset[int]:
     """Return the edges of a counter-clockwise triangle that own their centres: left ones, level bottom ones."""
     edges = enumerate(zip(corners, [*corners[1:], corners[0]], strict=True))
     return frozenset(k for k, ((x0, y0), (x1, y1)) in edges if y0 > y1 or (y0 == y1 and x1 > x0))
-
-
-def edges_at_leftmost(corners: Sequence[Vector]) -> frozenset[int]:
-    """Take the two edges at the vertex with the smallest x for the left ones."""
-    leftmost = min(range(len(corners)), key=lambda k: corners[k][0])
-    return frozenset({leftmost, (leftmost - 1) % len(corners)})
 
 
 def doubled_area(width: int, height: int) -> Vector:
@@ -269,80 +245,80 @@ def doubled_area(width: int, height: int) -> Vector:
 SQUARE: Polygon = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]
 SLANTED: list[Edge] = [(1.0, 1.0, -8.0, True)]
 
-RULES = (
-    WrongRule(
-        "planes-after-divide",
-        "The planes were tested after the divide. Compare x, y and z with -w and w while w still has its sign.",
-        planes_outside,
-        lambda clip: planes_outside((*(c / clip[3] for c in clip[:3]), 1)),
-        ((1, 1, Fraction(-14, 3), -2),),
-        ((1, 3, 1, 2),),
-    ),
-    WrongRule(
-        "attribute-copied",
-        "The new vertex has the attribute of the end that was cut off. Interpolate it with t, as the position.",
-        at_crossing,
-        lambda _near, far, _t: (far,),
-        (Fraction(0), Fraction(1), Fraction(1, 2)),
-        (Fraction(1), Fraction(1), Fraction(1, 2)),
-    ),
-    WrongRule(
-        "quad-as-triangle",
-        "Two vertices inside leave a quad, which is two triangles.",
-        triangles_after_clipping,
-        lambda inside: (Fraction(min(inside, 1)),),
-        (2,),
-        (1,),
-    ),
-    WrongRule(
-        "clipped-in-place",
-        "The first new corner replaced the vertex that the second one starts from. Keep the old vertices until all "
-        "crossings are found.",
-        new_corners,
-        new_corners_in_place,
-        (((2, 2), (12, 2), (12, 8)), 8),
-        (((2, 2), (12, 2), (8, 8)), 8),
-    ),
-    WrongRule(
-        "window-clockwise",
-        "The window was followed clockwise, so its outside was kept. Inside is on the left of counter-clockwise edges.",
-        area_in_window,
-        lambda polygon, window: area_in_window(polygon, window[::-1]),
-        ([(1.0, 1.0), (3.0, 1.0), (2.0, 3.0)], SQUARE),
-        ([(5.0, 5.0), (7.0, 5.0), (6.0, 7.0)], SQUARE),
-    ),
-    WrongRule(
-        "view-direction-fixed",
-        "Normals were compared with one view direction. With perspective it is that from the eye to the face.",
-        culled_faces,
-        lambda faces, _eye: frozenset(k for k, (normal, _) in enumerate(faces) if normal[2] < 0),
-        ([((1, 0, Fraction(-1, 4)), (-9, 0, -10))], (0, 0, 0)),
-        ([((0, 0, -1), (0, 0, -10))], (0, 0, 0)),
-    ),
-    WrongRule(
-        "block-by-one-corner",
-        "Blocks were rejected by their lower left pixel. The pixel where E is largest decides.",
-        rejected_blocks,
-        rejected_by_one_corner,
-        (SLANTED, 3, 4),
-        ([(-1.0, -1.0, 8.0, True)], 3, 4),
-    ),
-    WrongRule(
-        "leftmost-vertex",
-        "The edges at the leftmost vertex were taken for left edges. An edge is left if the inside is on its right.",
-        owned_edges,
-        edges_at_leftmost,
-        (((1, 1), (9, 5), (3, 9)),),
-        (((1, 1), (9, 1), (8, 5)),),
-    ),
-    WrongRule(
-        "product-overflows",
-        "The product does not fit into 32 bits with a sign: from 2^31 on it turns over.",
-        doubled_area,
-        lambda width, height: (
-            Fraction(int(np.array(256 * width * 256 * height, np.int64).astype(np.int32))),
-        ),
-        (200, 200),
-        (20, 20),
-    ),
+
+@wrong_rule(planes_outside, shows=((1, 1, Fraction(-14, 3), -2),), hides=((1, 3, 1, 2),))
+def planes_after_divide(clip: Vector) -> frozenset[int]:
+    """The planes were tested after the divide. Compare x, y and z with -w and w while w still has its sign."""
+    return planes_outside((*(c / clip[3] for c in clip[:3]), 1))
+
+
+@wrong_rule(
+    at_crossing,
+    shows=(Fraction(0), Fraction(1), Fraction(1, 2)),
+    hides=(Fraction(1), Fraction(1), Fraction(1, 2)),
 )
+def attribute_copied(near: Any, far: Any, t: Any) -> Vector:
+    """The new vertex has the attribute of the end that was cut off. Interpolate it with t, as the position."""
+    return (far,)
+
+
+@wrong_rule(triangles_after_clipping, shows=(2,), hides=(1,))
+def quad_as_triangle(inside: int) -> Vector:
+    """Two vertices inside leave a quad, which is two triangles."""
+    return (Fraction(min(inside, 1)),)
+
+
+@wrong_rule(new_corners, shows=(((2, 2), (12, 2), (12, 8)), 8), hides=(((2, 2), (12, 2), (8, 8)), 8))
+def clipped_in_place(corners: Sequence[Vector], border: int) -> tuple[Vector, Vector]:
+    """The first new corner replaced the vertex that the second one starts from.
+
+    Keep the old vertices until all crossings are found.
+    """
+    (x, _), end = corners[0], corners[2]
+    moved = cut_at(corners[0], corners[1], border)
+    t = Fraction(border - x, end[0] - x)
+    return moved, tuple(a + t * (b - a) for a, b in zip(moved, end, strict=True))
+
+
+@wrong_rule(
+    area_in_window,
+    shows=([(1.0, 1.0), (3.0, 1.0), (2.0, 3.0)], SQUARE),
+    hides=([(5.0, 5.0), (7.0, 5.0), (6.0, 7.0)], SQUARE),
+)
+def window_clockwise(polygon: Polygon, window: Polygon) -> Vector:
+    """The window was followed clockwise, so its outside was kept. Inside is on the left of counter-clockwise edges."""
+    return area_in_window(polygon, window[::-1])
+
+
+@wrong_rule(
+    culled_faces,
+    shows=([((1, 0, Fraction(-1, 4)), (-9, 0, -10))], (0, 0, 0)),
+    hides=([((0, 0, -1), (0, 0, -10))], (0, 0, 0)),
+)
+def view_direction_fixed(faces: Sequence[Face], eye: Vector) -> frozenset[int]:
+    """Normals were compared with one view direction. With perspective it is that from the eye to the face."""
+    return frozenset(k for k, (normal, _) in enumerate(faces) if normal[2] < 0)
+
+
+@wrong_rule(rejected_blocks, shows=(SLANTED, 3, 4), hides=([(-1.0, -1.0, 8.0, True)], 3, 4))
+def block_by_one_corner(edges: Sequence[Edge], blocks: int, size: int) -> frozenset[tuple[int, int]]:
+    """Blocks were rejected by their lower left pixel. The pixel where E is largest decides."""
+    return frozenset(
+        (i, j)
+        for j in range(blocks)
+        for i in range(blocks)
+        if any(a * (i * size + 0.5) + b * (j * size + 0.5) + c < 0 for a, b, c, _ in edges)
+    )
+
+
+@wrong_rule(owned_edges, shows=(((1, 1), (9, 5), (3, 9)),), hides=(((1, 1), (9, 1), (8, 5)),))
+def leftmost_vertex(corners: Sequence[Vector]) -> frozenset[int]:
+    """The edges at the leftmost vertex were taken for left edges. An edge is left if the inside is on its right."""
+    leftmost = min(range(len(corners)), key=lambda k: corners[k][0])
+    return frozenset({leftmost, (leftmost - 1) % len(corners)})
+
+
+@wrong_rule(doubled_area, shows=(200, 200), hides=(20, 20))
+def product_overflows(width: int, height: int) -> Vector:
+    """The product does not fit into 32 bits with a sign: from 2^31 on it turns over."""
+    return (Fraction(int(np.array(256 * width * 256 * height, np.int64).astype(np.int32))),)

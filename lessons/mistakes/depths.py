@@ -13,7 +13,7 @@ from core.methods import table
 from core.scene import ClipScene
 from lessons.mistakes.fragments import ALPHA, CLEAR_RED, COLOR, OPAQUE, RED_AND_BLUE, WINDOW, in_over
 from lessons.mistakes.transforms import Vector
-from lessons.mistakes.twin import Case, Twin, WrongRule, frame_colors
+from lessons.mistakes.twin import Case, Twin, frame_colors, wrong_rule
 from lessons.small_scenes import triangle_scene
 
 
@@ -56,12 +56,6 @@ def depth_between(t: Any, depths: Vector, distances: Vector) -> Vector:
     return (depths[0] + t * (depths[1] - depths[0]),)
 
 
-def depth_corrected(t: Any, depths: Vector, distances: Vector) -> Vector:
-    """Correct it for perspective once more."""
-    first, second = (1 - t) / Fraction(distances[0]), t / Fraction(distances[1])
-    return ((first * depths[0] + second * depths[1]) / (first + second),)
-
-
 def distance_between(t: Any, distances: Vector) -> Vector:
     """Return the distance at t along an edge in the window: 1/w is linear there."""
     return (1 / ((1 - t) / Fraction(distances[0]) + t / Fraction(distances[1])),)
@@ -90,23 +84,6 @@ def resolved(layers: Sequence[Layer], count: int) -> Vector:
             if layer.depth < nearest[sample]:
                 nearest[sample], greys[sample] = layer.depth, layer.grey
     return (Fraction(sum(greys), count),)
-
-
-def resolved_with_one_depth(layers: Sequence[Layer], count: int) -> Vector:
-    """Let all samples of the pixel share one depth."""
-    greys, nearest = [0] * count, 10**9
-    for layer in layers:
-        if layer.samples and layer.depth < nearest:
-            nearest = layer.depth
-            for sample in layer.samples:
-                greys[sample] = layer.grey
-    return (Fraction(sum(greys), count),)
-
-
-def resolved_from_one(layers: Sequence[Layer], count: int) -> Vector:
-    """Fill the first sample alone, and divide by the number of all."""
-    first = [replace(layer, samples=layer.samples & {0}) for layer in layers]
-    return resolved(first, count)
 
 
 def line_greys(grey: int, counts: Sequence[int]) -> Vector:
@@ -187,69 +164,58 @@ TWINS = (
     ),
 )
 
-RULES = (
-    WrongRule(
-        "depth-linear",
-        "Depth was taken for linear in the distance. With perspective most of its range lies near the eye.",
-        window_depth,
-        lambda near, far, distance: (Fraction(distance - near) / (far - near),),
-        (1, 10, 2),
-        (1, 10, 10),
-    ),
-    WrongRule(
-        "near-plane-tiny",
-        "The near plane lies almost at the eye, so that every depth is almost 1.",
-        window_depth,
-        lambda near, far, distance: window_depth(Fraction(near) / 1000, far, distance),
-        (1, 10, 2),
-        (1, 10, 10),
-    ),
-    WrongRule(
-        "depth-corrected-twice",
-        "The window depth was corrected for perspective. It was divided by w already, and is linear in the window.",
-        depth_between,
-        depth_corrected,
-        (Fraction(1, 2), (0, 1), (1, 10)),
-        (Fraction(1, 2), (0, 1), (4, 4)),
-    ),
-    WrongRule(
-        "distance-linear",
-        "The distance was interpolated in the window. Its reciprocal 1/w is linear there.",
-        distance_between,
-        lambda t, distances: (distances[0] + t * (distances[1] - distances[0]),),
-        (Fraction(1, 2), (1, 10)),
-        (Fraction(1, 2), (3, 3)),
-    ),
-    WrongRule(
-        "sorted-by-mean",
-        "The triangles were sorted by their mean depth. Here the farthest vertex decides.",
-        painted_first,
-        lambda depths: tuple(sorted(range(len(depths)), key=lambda k: -sum(depths[k]))),
-        (((1, 1, 30), (12, 12, 12)),),
-        (((1, 1, 1), (12, 12, 12)),),
-    ),
-    WrongRule(
-        "one-depth-a-pixel",
-        "The samples shared one depth, so the background shines through. Each sample has a depth of its own.",
-        resolved,
-        resolved_with_one_depth,
-        (TWO, 4),
-        (ONE, 4),
-    ),
-    WrongRule(
-        "one-sample-filled",
-        "Only one sample was filled, but the sum was divided by the number of all.",
-        resolved,
-        resolved_from_one,
-        (ONE, 4),
-        ((Layer(frozenset({0}), 1, 8),), 4),
-    ),
-    WrongRule(
-        "line-in-one-sample",
-        "The line was written to one sample of each pixel, so it fades as their number grows. Write all of them.",
-        line_greys,
-        lambda grey, counts: tuple(Fraction(grey, count) for count in counts),
-        (240, (1, 4, 16)),
-        (240, (1,)),
-    ),
-)
+
+@wrong_rule(window_depth, shows=(1, 10, 2), hides=(1, 10, 10))
+def depth_linear(near: Any, far: Any, distance: Any) -> Vector:
+    """Depth was taken for linear in the distance. With perspective most of its range lies near the eye."""
+    return (Fraction(distance - near) / (far - near),)
+
+
+@wrong_rule(window_depth, shows=(1, 10, 2), hides=(1, 10, 10))
+def near_plane_tiny(near: Any, far: Any, distance: Any) -> Vector:
+    """The near plane lies almost at the eye, so that every depth is almost 1."""
+    return window_depth(Fraction(near) / 1000, far, distance)
+
+
+@wrong_rule(depth_between, shows=(Fraction(1, 2), (0, 1), (1, 10)), hides=(Fraction(1, 2), (0, 1), (4, 4)))
+def depth_corrected_twice(t: Any, depths: Vector, distances: Vector) -> Vector:
+    """The window depth was corrected for perspective. It was divided by w already, and is linear in the window."""
+    first, second = (1 - t) / Fraction(distances[0]), t / Fraction(distances[1])
+    return ((first * depths[0] + second * depths[1]) / (first + second),)
+
+
+@wrong_rule(distance_between, shows=(Fraction(1, 2), (1, 10)), hides=(Fraction(1, 2), (3, 3)))
+def distance_linear(t: Any, distances: Vector) -> Vector:
+    """The distance was interpolated in the window. Its reciprocal 1/w is linear there."""
+    return (distances[0] + t * (distances[1] - distances[0]),)
+
+
+@wrong_rule(painted_first, shows=(((1, 1, 30), (12, 12, 12)),), hides=(((1, 1, 1), (12, 12, 12)),))
+def sorted_by_mean(depths: Sequence[Vector]) -> Vector:
+    """The triangles were sorted by their mean depth. Here the farthest vertex decides."""
+    return tuple(sorted(range(len(depths)), key=lambda k: -sum(depths[k])))
+
+
+@wrong_rule(resolved, shows=(TWO, 4), hides=(ONE, 4))
+def one_depth_a_pixel(layers: Sequence[Layer], count: int) -> Vector:
+    """The samples shared one depth, so the background shines through. Each sample has a depth of its own."""
+    greys, nearest = [0] * count, 10**9
+    for layer in layers:
+        if layer.samples and layer.depth < nearest:
+            nearest = layer.depth
+            for sample in layer.samples:
+                greys[sample] = layer.grey
+    return (Fraction(sum(greys), count),)
+
+
+@wrong_rule(resolved, shows=(ONE, 4), hides=((Layer(frozenset({0}), 1, 8),), 4))
+def one_sample_filled(layers: Sequence[Layer], count: int) -> Vector:
+    """Only one sample was filled, but the sum was divided by the number of all."""
+    first = [replace(layer, samples=layer.samples & {0}) for layer in layers]
+    return resolved(first, count)
+
+
+@wrong_rule(line_greys, shows=(240, (1, 4, 16)), hides=(240, (1,)))
+def line_in_one_sample(grey: int, counts: Sequence[int]) -> Vector:
+    """The line was written to one sample of each pixel, so it fades as their number grows. Write all of them."""
+    return tuple(Fraction(grey, count) for count in counts)

@@ -2,7 +2,7 @@
 
 from fractions import Fraction
 
-from lessons.mistakes.twin import WrongRule
+from lessons.mistakes.twin import wrong_rule
 
 
 def kept_after(old: Fraction, new: Fraction, share: Fraction, count: int) -> tuple[float]:
@@ -20,47 +20,32 @@ def ghost_pictures(share: Fraction, visible: Fraction) -> tuple[int, Fraction]:
     return count, left
 
 
-def ghost_by_steps(share: Fraction, visible: Fraction) -> tuple[int, Fraction]:
-    """Remove the same part of what was there in each picture."""
-    count = int(-(-(1 - visible) // share))
-    return count, 1 - count * share
-
-
 _KEPT = (Fraction(0), Fraction(1), Fraction(1, 5), 2)
 _LEFT = (Fraction(1, 5), Fraction(1, 10))
 _HALF, _ONCE = (Fraction(0), Fraction(1), Fraction(1, 2), 2), (Fraction(0), Fraction(1), Fraction(1, 5), 1)
 _SOON = (Fraction(1, 2), Fraction(2, 3))
-RULES = (
-    WrongRule(
-        "share-of-the-history",
-        "The history was weighed by the share of the new picture. The share belongs to the new one.",
-        kept_after,
-        lambda old, new, share, count: kept_after(old, new, 1 - share, count),
-        _KEPT,
-        _HALF,
-    ),
-    WrongRule(
-        "share-added",
-        "The same step was added each time. The step is a share of the way that is left, so it gets smaller.",
-        kept_after,
-        lambda old, new, share, count: (float(old + count * share * (new - old)),),
-        _KEPT,
-        _ONCE,
-    ),
-    WrongRule(
-        "ghost-is-over",
-        "Each picture was taken to remove the same part of the first brightness. It removes a share of what is left.",
-        ghost_pictures,
-        ghost_by_steps,
-        _LEFT,
-        _SOON,
-    ),
-    WrongRule(
-        "ghost-of-the-share",
-        "What is left was multiplied by the share. It is the rest, one less the share, that stays each time.",
-        ghost_pictures,
-        lambda share, visible: ghost_pictures(1 - share, visible),
-        _LEFT,
-        _SOON,
-    ),
-)
+
+
+@wrong_rule(kept_after, shows=_KEPT, hides=_HALF)
+def share_of_the_history(old: Fraction, new: Fraction, share: Fraction, count: int) -> tuple[float]:
+    """The history was weighed by the share of the new picture. The share belongs to the new one."""
+    return kept_after(old, new, 1 - share, count)
+
+
+@wrong_rule(kept_after, shows=_KEPT, hides=_ONCE)
+def share_added(old: Fraction, new: Fraction, share: Fraction, count: int) -> tuple[float]:
+    """The same step was added each time. The step is a share of the way that is left, so it gets smaller."""
+    return (float(old + count * share * (new - old)),)
+
+
+@wrong_rule(ghost_pictures, shows=_LEFT, hides=_SOON)
+def ghost_is_over(share: Fraction, visible: Fraction) -> tuple[int, Fraction]:
+    """Each picture was taken to remove the same part of the first brightness. It removes a share of what is left."""
+    count = int(-(-(1 - visible) // share))
+    return count, 1 - count * share
+
+
+@wrong_rule(ghost_pictures, shows=_LEFT, hides=_SOON)
+def ghost_of_the_share(share: Fraction, visible: Fraction) -> tuple[int, Fraction]:
+    """What is left was multiplied by the share. It is the rest, one less the share, that stays each time."""
+    return ghost_pictures(1 - share, visible)

@@ -10,7 +10,7 @@ import numpy as np
 from core import Settings
 from core.culling.occlusion import BoxesOnScreen, OcclusionTests, compare_with_pyramid, pyramid_of
 from core.depth.depth import Stored
-from lessons.mistakes.twin import Case, Twin, WrongRule
+from lessons.mistakes.twin import Case, Twin, wrong_rule
 from lessons.world_scenes import boxes_behind_wall
 
 # Faulty pyramids.
@@ -77,16 +77,6 @@ def hidden_boxes(boxes: Sequence[Box]) -> tuple[int, ...]:
     return tuple(place for place, (near, _, texels) in enumerate(boxes) if near > max(texels))
 
 
-def hidden_by_nearest(boxes: Sequence[Box]) -> tuple[int, ...]:
-    """Compare with the nearest texel."""
-    return tuple(place for place, (near, _, texels) in enumerate(boxes) if near > min(texels))
-
-
-def hidden_by_far_side(boxes: Sequence[Box]) -> tuple[int, ...]:
-    """Compare the farthest depth of the box."""
-    return tuple(place for place, (_, far, texels) in enumerate(boxes) if far > max(texels))
-
-
 def coarser(depths: Sequence[Sequence[int]], keep: Callable[[list[int]], Any]) -> tuple[Any, ...]:
     """Return the level over 4 x 4 depths, row by row: what a texel keeps of each 2 x 2."""
     squares = [[depths[y + j][x + i] for j in (0, 1) for i in (0, 1)] for y in (0, 2) for x in (0, 2)]
@@ -98,37 +88,32 @@ def farthest_level(depths: Sequence[Sequence[int]]) -> tuple[int, ...]:
     return coarser(depths, max)
 
 
+DEPTHS = ((9, 4, 4, 4), (4, 4, 4, 9), (4, 4, 4, 4), (4, 5, 4, 4))
+EVEN = ((4, 4, 9, 9), (4, 4, 9, 9), (5, 5, 4, 4), (5, 5, 4, 4))
+
+
+@wrong_rule(hidden_boxes, shows=(((6, 8, (4, 9)),),), hides=(((6, 8, (4, 5)),),))
+def compared_with_nearest_texel(boxes: Sequence[Box]) -> tuple[int, ...]:
+    """The box was compared with the nearest texel.
+
+    Where another texel is farther, it may look out: only behind the farthest of them is it surely hidden.
+    """
+    return tuple(place for place, (near, _, texels) in enumerate(boxes) if near > min(texels))
+
+
+@wrong_rule(hidden_boxes, shows=(((4, 8, (5, 5)),),), hides=(((6, 8, (5, 5)),),))
+def far_side_compared(boxes: Sequence[Box]) -> tuple[int, ...]:
+    """The farthest depth of the box was compared. Its near side may still be seen: compare the nearest."""
+    return tuple(place for place, (_, far, texels) in enumerate(boxes) if far > max(texels))
+
+
+@wrong_rule(farthest_level, shows=(DEPTHS,), hides=(EVEN,), twin=TWINS[0])
 def nearest_level(depths: Sequence[Sequence[int]]) -> tuple[int, ...]:
     """Keep the nearest."""
     return coarser(depths, min)
 
 
+@wrong_rule(farthest_level, shows=(DEPTHS,), hides=(EVEN,), twin=TWINS[1])
 def mean_level(depths: Sequence[Sequence[int]]) -> tuple[Fraction, ...]:
     """Keep the mean."""
     return coarser(depths, lambda square: Fraction(sum(square), 4))
-
-
-DEPTHS = ((9, 4, 4, 4), (4, 4, 4, 9), (4, 4, 4, 4), (4, 5, 4, 4))
-EVEN = ((4, 4, 9, 9), (4, 4, 9, 9), (5, 5, 4, 4), (5, 5, 4, 4))
-RULES = (
-    WrongRule(
-        "compared-with-nearest-texel",
-        "The box was compared with the nearest texel. Where another texel is farther, it may look out: only behind the "
-        "farthest of them is it surely hidden.",
-        hidden_boxes,
-        hidden_by_nearest,
-        (((6, 8, (4, 9)),),),
-        (((6, 8, (4, 5)),),),
-    ),
-    WrongRule(
-        "far-side-compared",
-        "The farthest depth of the box was compared. Its near side may still be seen: compare the nearest.",
-        hidden_boxes,
-        hidden_by_far_side,
-        (((4, 8, (5, 5)),),),
-        (((6, 8, (5, 5)),),),
-    ),
-    WrongRule(TWINS[0].name, TWINS[0].sentence, farthest_level, nearest_level, (DEPTHS,), (EVEN,)),
-    WrongRule(TWINS[1].name, TWINS[1].sentence, farthest_level, mean_level, (DEPTHS,), (EVEN,)),
-)
-"""Wrong formulas of occluders."""

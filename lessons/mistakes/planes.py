@@ -10,7 +10,7 @@ from core import Settings
 from core.records.arrays import Floats
 from core.records.primitives import DrawingOrder
 from core.visibility.bsp import bsp
-from lessons.mistakes.twin import Case, Twin, WrongRule
+from lessons.mistakes.twin import Case, Twin, wrong_rule
 from lessons.small_scenes import triangle_scene
 from lessons.window_scenes import circle_of_bars
 
@@ -32,23 +32,9 @@ def painted_back_to_front(node: Node | None) -> tuple[str, ...]:
     return (*painted_back_to_front(far), node.name, *painted_back_to_front(near))
 
 
-def painted_front_to_back(node: Node | None) -> tuple[str, ...]:
-    """Paint the half with the eye first."""
-    return painted_back_to_front(node)[::-1]
-
-
 def sorted_far_to_near(corners: Sequence[Sequence[int]], near: int, far: int) -> tuple[int, ...]:
     """Return the triangles by the mean distance of their corners along the view, far ones first."""
     return tuple(sorted(range(len(corners)), key=lambda k: -sum(corners[k])))
-
-
-def sorted_after_division(corners: Sequence[Sequence[int]], near: int, far: int) -> tuple[int, ...]:
-    """Sort by the mean of the window depths, which a corner behind the eye has beyond the far plane."""
-
-    def depth(distance: int) -> Fraction:
-        return Fraction(far * (distance - near), distance * (far - near))
-
-    return tuple(sorted(range(len(corners)), key=lambda k: -sum(depth(distance) for distance in corners[k])))
 
 
 def pieces_of_a_cut(distances: Sequence[int]) -> tuple[int, int]:
@@ -62,11 +48,6 @@ def pieces_of_a_cut(distances: Sequence[int]) -> tuple[int, int]:
         corners = sum(inside) + touching + crossing
         counts.append(max(corners - 2, 0) if any(inside) else 0)
     return counts[0], counts[1]
-
-
-def pieces_without_zero(distances: Sequence[int]) -> tuple[int, int]:
-    """Count a corner in the plane as one behind it."""
-    return pieces_of_a_cut([d or -1 for d in distances])
 
 
 def bsp_from_the_front(clip: Floats) -> DrawingOrder:
@@ -117,29 +98,29 @@ TWINS = (
 """Wrong orders of drawing."""
 _SMALL = Node("A", True, Node("B", True), Node("C", False))
 
-RULES = (
-    WrongRule(
-        TWINS[0].name,
-        TWINS[0].sentence,
-        painted_back_to_front,
-        painted_front_to_back,
-        (_SMALL,),
-        (Node("A", True),),
-    ),
-    WrongRule(
-        TWINS[1].name,
-        TWINS[1].sentence,
-        sorted_far_to_near,
-        sorted_after_division,
-        (((2, 2, -1), (3, 3, 3)), 1, 9),
-        (((2, 2, 2), (3, 3, 3)), 1, 9),
-    ),
-    WrongRule(
-        "corner-in-plane-cuts",
-        "A corner in the plane was counted as one behind it, so that a triangle that only touches the plane was cut.",
-        pieces_of_a_cut,
-        pieces_without_zero,
-        ((0, 2, 3),),
-        ((-1, 2, 3),),
-    ),
+
+@wrong_rule(painted_back_to_front, shows=(_SMALL,), hides=(Node("A", True),), twin=TWINS[0])
+def painted_front_to_back(node: Node | None) -> tuple[str, ...]:
+    """Paint the half with the eye first."""
+    return painted_back_to_front(node)[::-1]
+
+
+@wrong_rule(
+    sorted_far_to_near,
+    shows=(((2, 2, -1), (3, 3, 3)), 1, 9),
+    hides=(((2, 2, 2), (3, 3, 3)), 1, 9),
+    twin=TWINS[1],
 )
+def sorted_after_division(corners: Sequence[Sequence[int]], near: int, far: int) -> tuple[int, ...]:
+    """Sort by the mean of the window depths, which a corner behind the eye has beyond the far plane."""
+
+    def depth(distance: int) -> Fraction:
+        return Fraction(far * (distance - near), distance * (far - near))
+
+    return tuple(sorted(range(len(corners)), key=lambda k: -sum(depth(distance) for distance in corners[k])))
+
+
+@wrong_rule(pieces_of_a_cut, shows=((0, 2, 3),), hides=((-1, 2, 3),))
+def corner_in_plane_cuts(distances: Sequence[int]) -> tuple[int, int]:
+    """A corner in the plane was counted as one behind it, so that a triangle that only touches the plane was cut."""
+    return pieces_of_a_cut([d or -1 for d in distances])

@@ -10,7 +10,7 @@ import numpy as np
 from core import Material, Settings
 from core.records.arrays import Floats, Integers
 from core.shading.environment import ABOVE, ACROSS, MapLooks, Surroundings, cube, look_up_faces, place_on_cube
-from lessons.mistakes.twin import Case, Twin, WrongRule
+from lessons.mistakes.twin import Case, Twin, wrong_rule
 from lessons.world_scenes import mirror_cube
 
 Look = Callable[[Floats, Floats, Floats, Surroundings], MapLooks]
@@ -112,35 +112,9 @@ def _mirrored(incoming: Exact, normal: Exact, factor: int) -> tuple[Any, ...]:
     return tuple(i + factor * along * n for i, n in zip(incoming, normal, strict=True))
 
 
-def mirrored_by_sum(incoming: Exact, normal: Exact) -> tuple[Any, ...]:
-    """Add twice the part along the normal."""
-    return _mirrored(incoming, normal, 2)
-
-
-def mirrored_once(incoming: Exact, normal: Exact) -> tuple[Any, ...]:
-    """Subtract the part along the normal once."""
-    return _mirrored(incoming, normal, -1)
-
-
-def mirrored_view(incoming: Exact, normal: Exact) -> tuple[Any, ...]:
-    """Take the direction to the eye for the one from it."""
-    return mirrored([-i for i in incoming], normal)
-
-
 def face_of(direction: Sequence[int]) -> int:
     """Return the face, 0 to 5, of the largest component without its sign."""
     axis = max(range(3), key=lambda k: abs(direction[k]))
-    return 2 * axis + (direction[axis] < 0)
-
-
-def face_of_signed(direction: Sequence[int]) -> int:
-    """Take the largest component with its sign."""
-    return 2 * max(range(3), key=lambda k: direction[k])
-
-
-def face_of_smallest(direction: Sequence[int]) -> int:
-    """Take the face that the direction runs along least."""
-    axis = min(range(3), key=lambda k: abs(direction[k]))
     return 2 * axis + (direction[axis] < 0)
 
 
@@ -149,65 +123,54 @@ def place_of(first: int, second: int, largest: int) -> tuple[Fraction, Fraction]
     return (Fraction(first, largest) + 1) / 2, (Fraction(second, largest) + 1) / 2
 
 
-def place_undivided(first: int, second: int, largest: int) -> tuple[Fraction, Fraction]:
+SLANTED, DOWN = ((3, -4, 2), (0, 1, 0)), ((3, 0, 2), (0, 1, 0))
+
+
+@wrong_rule(mirrored, shows=SLANTED, hides=DOWN, twin=TWINS[0])
+def reflection_sign(incoming: Exact, normal: Exact) -> tuple[Any, ...]:
+    """Add twice the part along the normal."""
+    return _mirrored(incoming, normal, 2)
+
+
+@wrong_rule(mirrored, shows=SLANTED, hides=DOWN)
+def reflection_once(incoming: Exact, normal: Exact) -> tuple[Any, ...]:
+    """The part along the normal was subtracted once, so the direction runs along the surface. Subtract it twice."""
+    return _mirrored(incoming, normal, -1)
+
+
+@wrong_rule(mirrored, shows=SLANTED, hides=((0, 0, 0), (0, 1, 0)))
+def reflection_of_view(incoming: Exact, normal: Exact) -> tuple[Any, ...]:
+    """The direction to the eye was mirrored. I runs from the eye to the surface."""
+    return mirrored([-i for i in incoming], normal)
+
+
+@wrong_rule(face_of, shows=((2, -5, 1),), hides=((2, 5, 1),), twin=TWINS[1])
+def face_by_signed_largest(direction: Sequence[int]) -> int:
+    """Take the largest component with its sign."""
+    return 2 * max(range(3), key=lambda k: direction[k])
+
+
+@wrong_rule(face_of, shows=((2, -5, 1),), hides=((2, 2, 2),))
+def face_by_smallest(direction: Sequence[int]) -> int:
+    """The face of the smallest component was taken. The direction meets the face that it runs along most."""
+    axis = min(range(3), key=lambda k: abs(direction[k]))
+    return 2 * axis + (direction[axis] < 0)
+
+
+@wrong_rule(place_of, shows=(2, 3, 6), hides=(0, 0, 6), twin=TWINS[2])
+def place_not_divided(first: int, second: int, largest: int) -> tuple[Fraction, Fraction]:
     """Leave the components as they are."""
     return place_of(first, second, 1)
 
 
+@wrong_rule(place_of, shows=(2, 3, 6), hides=(6, 6, 6))
 def place_from_middle(first: int, second: int, largest: int) -> tuple[Fraction, Fraction]:
-    """Leave the place from -1 to 1, with 0 in the middle."""
+    """The place was left from -1 to 1. Add 1 and halve it, so that it runs from 0 to 1."""
     return Fraction(first, largest), Fraction(second, largest)
 
 
+@wrong_rule(place_of, shows=(2, 3, 6), hides=(0, 0, 6))
 def place_by_length(first: int, second: int, largest: int) -> tuple[Fraction, Fraction]:
-    """Divide by the length of the direction, a whole number."""
+    """The components were divided by the length of R. They are divided by the size of the largest component."""
     length = round((first**2 + second**2 + largest**2) ** 0.5)
     return place_of(first, second, length)
-
-
-SLANTED, DOWN = ((3, -4, 2), (0, 1, 0)), ((3, 0, 2), (0, 1, 0))
-RULES = (
-    WrongRule("reflection-sign", SIGN, mirrored, mirrored_by_sum, SLANTED, DOWN),
-    WrongRule(
-        "reflection-once",
-        "The part along the normal was subtracted once, so the direction runs along the surface. Subtract it twice.",
-        mirrored,
-        mirrored_once,
-        SLANTED,
-        DOWN,
-    ),
-    WrongRule(
-        "reflection-of-view",
-        "The direction to the eye was mirrored. I runs from the eye to the surface.",
-        mirrored,
-        mirrored_view,
-        SLANTED,
-        ((0, 0, 0), (0, 1, 0)),
-    ),
-    WrongRule("face-by-signed-largest", SIGNED, face_of, face_of_signed, ((2, -5, 1),), ((2, 5, 1),)),
-    WrongRule(
-        "face-by-smallest",
-        "The face of the smallest component was taken. The direction meets the face that it runs along most.",
-        face_of,
-        face_of_smallest,
-        ((2, -5, 1),),
-        ((2, 2, 2),),
-    ),
-    WrongRule("place-not-divided", UNDIVIDED, place_of, place_undivided, (2, 3, 6), (0, 0, 6)),
-    WrongRule(
-        "place-from-middle",
-        "The place was left from -1 to 1. Add 1 and halve it, so that it runs from 0 to 1.",
-        place_of,
-        place_from_middle,
-        (2, 3, 6),
-        (6, 6, 6),
-    ),
-    WrongRule(
-        "place-by-length",
-        "The components were divided by the length of R. They are divided by the size of the largest component.",
-        place_of,
-        place_by_length,
-        (2, 3, 6),
-        (0, 0, 6),
-    ),
-)

@@ -16,7 +16,16 @@ from core.scene import ClipScene
 from lessons.assembled_scenes import assembled
 from lessons.mistakes.coverage import FREE, SQUARE, with_places
 from lessons.mistakes.transforms import Vector
-from lessons.mistakes.twin import Case, Change, Twin, WrongRule, edited, in_window, line_pixels, same_settings
+from lessons.mistakes.twin import (
+    Case,
+    Change,
+    Twin,
+    edited,
+    in_window,
+    line_pixels,
+    same_settings,
+    wrong_rule,
+)
 from lessons.small_scenes import Point, pixel_segments, segment_scene, triangle_scene
 from lessons.window_scenes import polygon_of_rings
 
@@ -66,39 +75,16 @@ def edge_crossing(start: Vector, end: Vector, row: int) -> Vector:
     return (x0 + (row + Fraction(1, 2) - y0) * (x1 - x0) / Fraction(y1 - y0),)
 
 
-def crossing_from_vertex(start: Vector, end: Vector, row: int) -> Vector:
-    """Count whole rows from the vertex, as if it lay on a row of centres."""
-    (x0, y0), (x1, y1) = start, end
-    return (x0 + (row - floor(y0)) * (x1 - x0) / Fraction(y1 - y0),)
-
-
-def crossing_of_longer_edge(start: Vector, end: Vector, row: int) -> Vector:
-    """Divide by the height of the edge plus 1."""
-    (x0, y0), (x1, y1) = start, end
-    return (x0 + (row + Fraction(1, 2) - y0) * (x1 - x0) / Fraction(y1 - y0 + 1),)
-
-
 def crossing_count(polygon: Sequence[Vector], y: int) -> Vector:
     """Return how many edges a scan line crosses: an edge has its lower end, but not its upper one."""
     edges = pairwise([*polygon, polygon[0]])
     return (Fraction(sum(min(y0, y1) <= y < max(y0, y1) for (_, y0), (_, y1) in edges)),)
 
 
-def closed_crossing_count(polygon: Sequence[Vector], y: int) -> Vector:
-    """Count an edge at both of its ends."""
-    edges = pairwise([*polygon, polygon[0]])
-    return (Fraction(sum(min(y0, y1) <= y <= max(y0, y1) and y0 != y1 for (_, y0), (_, y1) in edges)),)
-
-
 def active_edges(polygon: Sequence[Vector], y: Fraction) -> frozenset[int]:
     """Return the edges that are active on the line y: they have their lower end, but not their upper one."""
     edges = enumerate(pairwise([*polygon, polygon[0]]))
     return frozenset(k for k, ((_, y0), (_, y1)) in edges if min(y0, y1) <= y < max(y0, y1))
-
-
-def edges_that_leave_late(polygon: Sequence[Vector], y: Fraction) -> frozenset[int]:
-    """Remove edges only after a row is drawn: those of the row before are still there."""
-    return active_edges(polygon, y) | active_edges(polygon, y - 1)
 
 
 def pixels_with_border(polygon: Sequence[Vector]) -> frozenset[tuple[int, int]]:
@@ -120,13 +106,6 @@ def _left_of(side: tuple[Vector, Vector], point: Vector) -> Any:
     return (x1 - x0) * (point[1] - y0) - (y1 - y0) * (point[0] - x0)
 
 
-def pixels_without_level_top(polygon: Sequence[Vector]) -> frozenset[tuple[int, int]]:
-    """Drop level sides; a row whose pixels lie on the upper one alone is not drawn."""
-    pixels, top = pixels_with_border(polygon), max(y for _, y in polygon)
-    is_level = sum(y == top for _, y in polygon) > 1
-    return frozenset((i, j) for i, j in pixels if not is_level or j + Fraction(1, 2) < top)
-
-
 def count_by_weights(triangles: Sequence[Sequence[Vector]], side: int) -> Vector:
     """Return how many of side x side pixels are drawn where all weights of a triangle lie in [0, 1], ends included."""
     return (Fraction(len(frozenset().union(*(pixels_with_border(_turned(one)) for one in triangles)))),)
@@ -134,19 +113,6 @@ def count_by_weights(triangles: Sequence[Sequence[Vector]], side: int) -> Vector
 
 def _turned(corners: Sequence[Vector]) -> Sequence[Vector]:
     return corners if _left_of((corners[0], corners[1]), corners[2]) > 0 else corners[::-1]
-
-
-def count_by_rounded_weights(triangles: Sequence[Sequence[Vector]], side: int) -> Vector:
-    """Compute the weights in float32, in each triangle's own order of corners; the third is what the others leave."""
-    y, x = np.indices((side, side)).astype(np.float32) + np.float32(0.5)
-    is_drawn = np.zeros((side, side), bool)
-    for corners in triangles:
-        (x0, y0), (x1, y1), (x2, y2) = np.array(corners, float).astype(np.float32)
-        area = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)
-        alpha = ((x1 - x) * (y2 - y) - (x2 - x) * (y1 - y)) / area
-        beta = ((x2 - x) * (y0 - y) - (x0 - x) * (y2 - y)) / area
-        is_drawn |= (alpha >= 0) & (beta >= 0) & (1 - alpha - beta >= 0)
-    return (Fraction(int(is_drawn.sum())),)
 
 
 SHIFT = Fraction(1, 16384)
@@ -166,58 +132,59 @@ RECTANGLE = tuple((x + Fraction(1, 2), y + Fraction(1, 2)) for x, y in ((1, 1), 
 DIAMOND = tuple((x + Fraction(1, 2), y + Fraction(1, 2)) for x, y in ((2, 0), (4, 2), (2, 4), (0, 2)))
 
 
-RULES = (
-    WrongRule(
-        "crossing-from-vertex",
-        "x was counted from the vertex as if it lay on a row of centres. Begin at the first row's centre.",
-        edge_crossing,
-        crossing_from_vertex,
-        EDGE,
-        LEVEL_EDGE,
-    ),
-    WrongRule(
-        "height-plus-one",
-        "The height was made one larger against division by zero. That turns every edge.",
-        edge_crossing,
-        crossing_of_longer_edge,
-        EDGE,
-        LEVEL_EDGE,
-    ),
-    WrongRule(
-        "both-ends-crossed",
-        "A vertex was counted for both of its edges. An edge has its lower end, not its upper one.",
-        crossing_count,
-        closed_crossing_count,
-        (HOUSE, 3),
-        (HOUSE, 5),
-    ),
-    WrongRule(
-        "edges-leave-late",
-        "Edges were removed after the row was drawn. They leave the active edges before it: an edge has its lower end, "
-        "not its upper one.",
-        active_edges,
-        edges_that_leave_late,
-        (LATE, Fraction(6)),
-        (LATE, Fraction(4)),
-    ),
-    WrongRule(
-        "level-side-dropped",
-        "The level upper side was dropped, and its pixels with it. Here what lies on the border is drawn.",
-        pixels_with_border,
-        pixels_without_level_top,
-        (RECTANGLE,),
-        (DIAMOND,),
-    ),
-    WrongRule(
-        "third-weight-rounded",
-        "1 - alpha - beta was rounded below 0 in both triangles, so pixels on their common edge are missing. Decide "
-        "edges by whole numbers, alike in both.",
-        count_by_weights,
-        count_by_rounded_weights,
-        (HALVES, 7),
-        (TURNED_HALVES, 7),
-    ),
-)
+@wrong_rule(edge_crossing, shows=EDGE, hides=LEVEL_EDGE)
+def crossing_from_vertex(start: Vector, end: Vector, row: int) -> Vector:
+    """x was counted from the vertex as if it lay on a row of centres. Begin at the first row's centre."""
+    (x0, y0), (x1, y1) = start, end
+    return (x0 + (row - floor(y0)) * (x1 - x0) / Fraction(y1 - y0),)
+
+
+@wrong_rule(edge_crossing, shows=EDGE, hides=LEVEL_EDGE)
+def height_plus_one(start: Vector, end: Vector, row: int) -> Vector:
+    """The height was made one larger against division by zero. That turns every edge."""
+    (x0, y0), (x1, y1) = start, end
+    return (x0 + (row + Fraction(1, 2) - y0) * (x1 - x0) / Fraction(y1 - y0 + 1),)
+
+
+@wrong_rule(crossing_count, shows=(HOUSE, 3), hides=(HOUSE, 5))
+def both_ends_crossed(polygon: Sequence[Vector], y: int) -> Vector:
+    """A vertex was counted for both of its edges. An edge has its lower end, not its upper one."""
+    edges = pairwise([*polygon, polygon[0]])
+    return (Fraction(sum(min(y0, y1) <= y <= max(y0, y1) and y0 != y1 for (_, y0), (_, y1) in edges)),)
+
+
+@wrong_rule(active_edges, shows=(LATE, Fraction(6)), hides=(LATE, Fraction(4)))
+def edges_leave_late(polygon: Sequence[Vector], y: Fraction) -> frozenset[int]:
+    """Edges were removed after the row was drawn.
+
+    They leave the active edges before it: an edge has its lower end, not its upper one.
+    """
+    return active_edges(polygon, y) | active_edges(polygon, y - 1)
+
+
+@wrong_rule(pixels_with_border, shows=(RECTANGLE,), hides=(DIAMOND,))
+def level_side_dropped(polygon: Sequence[Vector]) -> frozenset[tuple[int, int]]:
+    """The level upper side was dropped, and its pixels with it. Here what lies on the border is drawn."""
+    pixels, top = pixels_with_border(polygon), max(y for _, y in polygon)
+    is_level = sum(y == top for _, y in polygon) > 1
+    return frozenset((i, j) for i, j in pixels if not is_level or j + Fraction(1, 2) < top)
+
+
+@wrong_rule(count_by_weights, shows=(HALVES, 7), hides=(TURNED_HALVES, 7))
+def third_weight_rounded(triangles: Sequence[Sequence[Vector]], side: int) -> Vector:
+    """1 - alpha - beta was rounded below 0 in both triangles, so pixels on their common edge are missing.
+
+    Decide edges by whole numbers, alike in both.
+    """
+    y, x = np.indices((side, side)).astype(np.float32) + np.float32(0.5)
+    is_drawn = np.zeros((side, side), bool)
+    for corners in triangles:
+        (x0, y0), (x1, y1), (x2, y2) = np.array(corners, float).astype(np.float32)
+        area = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)
+        alpha = ((x1 - x) * (y2 - y) - (x2 - x) * (y1 - y)) / area
+        beta = ((x2 - x) * (y0 - y) - (x0 - x) * (y2 - y)) / area
+        is_drawn |= (alpha >= 0) & (beta >= 0) & (1 - alpha - beta >= 0)
+    return (Fraction(int(is_drawn.sum())),)
 
 
 # Mistakes in Bresenham's algorithm as printed (LMU), D > 0, ends in order, the last pixel drawn; and in

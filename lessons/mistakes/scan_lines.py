@@ -5,7 +5,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from lessons.mistakes.transforms import Vector
-from lessons.mistakes.twin import WrongRule
+from lessons.mistakes.twin import wrong_rule
 
 
 class HandSpan(NamedTuple):
@@ -49,23 +49,6 @@ def pixels_seen(spans: Sequence[HandSpan]) -> Vector:
     return tuple(seen)
 
 
-def pixels_by_first(spans: Sequence[HandSpan]) -> Vector:
-    """Give every segment to what is nearest where it begins."""
-    seen = [0] * len(spans)
-    for left, right, live in segments_of(spans):
-        seen[nearest_of(spans, live, left)] += right - left
-    return tuple(seen)
-
-
-def pixels_by_span(spans: Sequence[HandSpan]) -> Vector:
-    """Give every pixel to the span that is nearest where its own span begins."""
-    order = sorted(range(len(spans)), key=lambda k: (spans[k].depth, k))
-    seen = [0] * len(spans)
-    for left, right, live in segments_of(spans):
-        seen[min(live, key=order.index)] += right - left
-    return tuple(seen)
-
-
 def row_work(spans: Sequence[HandSpan]) -> Vector:
     """Return how many segments have a live surface, and how many depths their ends need if none is halved."""
     segments = segments_of(spans)
@@ -73,52 +56,38 @@ def row_work(spans: Sequence[HandSpan]) -> Vector:
     return len(segments), sum(depths)
 
 
-def work_of_closed_spans(spans: Sequence[HandSpan]) -> Vector:
-    """Let each span own the column behind its last one, too."""
-    return row_work([span._replace(right=span.right + 1) for span in spans])
-
-
-def work_of_pixels(spans: Sequence[HandSpan]) -> Vector:
-    """Compute a depth at every pixel of every span, as a z-buffer does."""
-    return len(segments_of(spans)), sum(span.right - span.left for span in spans)
-
-
 CROSSING = (HandSpan(0, 10, 2, 1), HandSpan(2, 10, 8, -1))
 SLOPING = (HandSpan(0, 8, 20, -1), HandSpan(2, 9, 19, -2))
 APART = (HandSpan(0, 5, 2, 0), HandSpan(5, 9, 3, 0))
 ONE = (HandSpan(0, 5, 2, 0),)
 
-RULES = (
-    WrongRule(
-        "nearest-at-left",
-        "Only the first centre of each segment was asked. Where two surfaces cross, the last one shows another.",
-        pixels_seen,
-        pixels_by_first,
-        (CROSSING,),
-        (APART,),
-    ),
-    WrongRule(
-        "nearest-at-own-start",
-        "Each span was judged by the depth at its own start. Depths are compared at the same centre.",
-        pixels_seen,
-        pixels_by_span,
-        (SLOPING,),
-        (APART,),
-    ),
-    WrongRule(
-        "closed-spans",
-        "The spans were closed at both ends, so neighbours share a pixel. A span ends before its right end.",
-        row_work,
-        work_of_closed_spans,
-        (APART,),
-        (ONE,),
-    ),
-    WrongRule(
-        "depth-at-each-pixel",
-        "A depth was computed at every pixel of every span, as a z-buffer does. The ends of segments are enough.",
-        row_work,
-        work_of_pixels,
-        (CROSSING,),
-        ((HandSpan(0, 1, 2, 0), HandSpan(0, 1, 3, 0)),),
-    ),
-)
+
+@wrong_rule(pixels_seen, shows=(CROSSING,), hides=(APART,))
+def nearest_at_left(spans: Sequence[HandSpan]) -> Vector:
+    """Only the first centre of each segment was asked. Where two surfaces cross, the last one shows another."""
+    seen = [0] * len(spans)
+    for left, right, live in segments_of(spans):
+        seen[nearest_of(spans, live, left)] += right - left
+    return tuple(seen)
+
+
+@wrong_rule(pixels_seen, shows=(SLOPING,), hides=(APART,))
+def nearest_at_own_start(spans: Sequence[HandSpan]) -> Vector:
+    """Each span was judged by the depth at its own start. Depths are compared at the same centre."""
+    order = sorted(range(len(spans)), key=lambda k: (spans[k].depth, k))
+    seen = [0] * len(spans)
+    for left, right, live in segments_of(spans):
+        seen[min(live, key=order.index)] += right - left
+    return tuple(seen)
+
+
+@wrong_rule(row_work, shows=(APART,), hides=(ONE,))
+def closed_spans(spans: Sequence[HandSpan]) -> Vector:
+    """The spans were closed at both ends, so neighbours share a pixel. A span ends before its right end."""
+    return row_work([span._replace(right=span.right + 1) for span in spans])
+
+
+@wrong_rule(row_work, shows=(CROSSING,), hides=((HandSpan(0, 1, 2, 0), HandSpan(0, 1, 3, 0)),))
+def depth_at_each_pixel(spans: Sequence[HandSpan]) -> Vector:
+    """A depth was computed at every pixel of every span, as a z-buffer does. The ends of segments are enough."""
+    return len(segments_of(spans)), sum(span.right - span.left for span in spans)

@@ -10,7 +10,7 @@ import numpy as np
 from core import Settings
 from core.records.arrays import Floats
 from core.shading.shadows import Lamp, MapTests, shadow_map
-from lessons.mistakes.twin import Case, Twin, WrongRule
+from lessons.mistakes.twin import Case, Twin, wrong_rule
 from lessons.world_scenes import box_in_light
 
 # Faulty look-ups.
@@ -91,78 +91,41 @@ def lit_points(stored: Sequence[int], bias: int, points: Sequence[Point]) -> tup
     )
 
 
-def lit_against_bias(stored: Sequence[int], bias: int, points: Sequence[Point]) -> tuple[int, ...]:
-    """Subtract the bias."""
-    return lit_points(stored, -bias, points)
-
-
-def lit_inside(stored: Sequence[int], bias: int, points: Sequence[Point]) -> tuple[int, ...]:
-    """Take points outside of the map for dark."""
-    inside = [place for place, (texel, _) in enumerate(points) if 0 <= texel < len(stored)]
-    return tuple(place for place in lit_points(stored, bias, points) if place in inside)
-
-
-def lit_behind(stored: Sequence[int], bias: int, points: Sequence[Point]) -> tuple[int, ...]:
-    """Take what lies behind the stored depth for lit."""
-    lit = lit_points(stored, bias, points)
-    return tuple(place for place in range(len(points)) if place not in lit)
-
-
 def mean_of_comparisons(stored: Sequence[int], depth: int) -> tuple[Fraction]:
     """Return the share of the light: of the texels that store no less than the depth."""
     return (Fraction(sum(depth <= texel for texel in stored), len(stored)),)
 
 
-def comparison_of_mean(stored: Sequence[int], depth: int) -> tuple[Fraction]:
-    """Compare with the mean of the depths."""
+ROW, POINTS = (4, 4, 9), ((0, 4), (1, 5), (2, 9), (5, 7))
+
+
+@wrong_rule(lit_points, shows=(ROW, 1, POINTS), hides=(ROW, 0, POINTS))
+def shadow_bias_wrong_way(stored: Sequence[int], bias: int, points: Sequence[Point]) -> tuple[int, ...]:
+    """The bias was subtracted. It is added to what the map stores, so that a surface does not shadow itself."""
+    return lit_points(stored, -bias, points)
+
+
+@wrong_rule(lit_points, shows=(ROW, 1, POINTS), hides=(ROW, 1, POINTS[:3]))
+def shadow_outside_dark(stored: Sequence[int], bias: int, points: Sequence[Point]) -> tuple[int, ...]:
+    """Points outside of the map were taken for dark. Nothing is known to stand in their light: they are lit."""
+    inside = [place for place, (texel, _) in enumerate(points) if 0 <= texel < len(stored)]
+    return tuple(place for place in lit_points(stored, bias, points) if place in inside)
+
+
+@wrong_rule(lit_points, shows=(ROW, 1, POINTS), hides=(ROW, 1, ()))
+def shadow_compared_backwards(stored: Sequence[int], bias: int, points: Sequence[Point]) -> tuple[int, ...]:
+    """The comparison was turned round. What lies behind the stored depth is in the shadow."""
+    lit = lit_points(stored, bias, points)
+    return tuple(place for place in range(len(points)) if place not in lit)
+
+
+@wrong_rule(mean_of_comparisons, shows=((2, 8, 8, 8), 5), hides=((8, 8, 8, 8), 5))
+def shadow_depths_averaged(stored: Sequence[int], depth: int) -> tuple[Fraction]:
+    """The depths were averaged, then compared. A mean of two surfaces is none of them: average the comparisons."""
     return (Fraction(int(depth <= float(np.mean(stored)))),)
 
 
-def share_of_shadow(stored: Sequence[int], depth: int) -> tuple[Fraction]:
-    """Return the share that is hidden."""
+@wrong_rule(mean_of_comparisons, shows=((2, 8, 8, 8), 5), hides=((2, 2, 8, 8), 5))
+def shadow_share_hidden(stored: Sequence[int], depth: int) -> tuple[Fraction]:
+    """The texels that hide the light were counted. The share of the light is that of the others."""
     return (1 - mean_of_comparisons(stored, depth)[0],)
-
-
-ROW, POINTS = (4, 4, 9), ((0, 4), (1, 5), (2, 9), (5, 7))
-RULES = (
-    WrongRule(
-        "shadow-bias-wrong-way",
-        "The bias was subtracted. It is added to what the map stores, so that a surface does not shadow itself.",
-        lit_points,
-        lit_against_bias,
-        (ROW, 1, POINTS),
-        (ROW, 0, POINTS),
-    ),
-    WrongRule(
-        "shadow-outside-dark",
-        "Points outside of the map were taken for dark. Nothing is known to stand in their light: they are lit.",
-        lit_points,
-        lit_inside,
-        (ROW, 1, POINTS),
-        (ROW, 1, POINTS[:3]),
-    ),
-    WrongRule(
-        "shadow-compared-backwards",
-        "The comparison was turned round. What lies behind the stored depth is in the shadow.",
-        lit_points,
-        lit_behind,
-        (ROW, 1, POINTS),
-        (ROW, 1, ()),
-    ),
-    WrongRule(
-        "shadow-depths-averaged",
-        "The depths were averaged, then compared. A mean of two surfaces is none of them: average the comparisons.",
-        mean_of_comparisons,
-        comparison_of_mean,
-        ((2, 8, 8, 8), 5),
-        ((8, 8, 8, 8), 5),
-    ),
-    WrongRule(
-        "shadow-share-hidden",
-        "The texels that hide the light were counted. The share of the light is that of the others.",
-        mean_of_comparisons,
-        share_of_shadow,
-        ((2, 8, 8, 8), 5),
-        ((2, 2, 8, 8), 5),
-    ),
-)

@@ -26,7 +26,7 @@ from lessons.mistakes import (
     visible_work,
 )
 from lessons.mistakes.shaders import ShaderMistake
-from lessons.mistakes.twin import Twin, WrongRule
+from lessons.mistakes.twin import ENTERED, Twin, WrongRule
 
 SHELF: dict[str, Twin] = {
     twin.name: twin
@@ -70,7 +70,7 @@ RULES: dict[str, WrongRule] = {
         history,
         presenting,
     )
-    for rule in module.RULES
+    for rule in ENTERED[module.__name__]
 }
 """Wrong formulas, stage by stage; a run of the shelf with the same name makes the same mistake."""
 

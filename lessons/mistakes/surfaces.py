@@ -12,7 +12,7 @@ from core.records.arrays import Floats, Integers
 from core.scene import ClipScene
 from core.textures.look_up import Footprint, bilinear, nearest
 from lessons.mistakes.transforms import Matrix, Vector, dot, image, shifted
-from lessons.mistakes.twin import Case, Twin, WrongRule, frame_colors, in_window
+from lessons.mistakes.twin import Case, Twin, frame_colors, in_window, wrong_rule
 from lessons.small_scenes import triangle_scene
 
 # Mistakes with normals and light, as wrong formulas.
@@ -34,11 +34,6 @@ def normal_in_camera(model_view: Matrix, focal: Vector, normal: Vector) -> Vecto
     return unit(image(model_view, normal))
 
 
-def normal_by_projection(model_view: Matrix, focal: Vector, normal: Vector) -> Vector:
-    """Take P V M for V M: x and y are scaled by the projection, so their normals are divided."""
-    return unit(tuple(c / f for c, f in zip(image(model_view, normal), focal, strict=True)))
-
-
 def diffuse(ambient: float, normal: Vector, to_light: Vector) -> Vector:
     """Return ambient + (1 - ambient) max(0, N . L), with unit vectors."""
     return (ambient + (1 - ambient) * max(0.0, dot(unit(normal), unit(to_light))),)
@@ -50,21 +45,10 @@ def between_normals(first: Vector, second: Vector, t: Any, to_light: Vector) -> 
     return (dot(unit(mixed), unit(to_light)),)
 
 
-def between_normals_short(first: Vector, second: Vector, t: Any, to_light: Vector) -> Vector:
-    """Leave the interpolated normal as short as it is."""
-    mixed = tuple((1 - t) * a + t * b for a, b in zip(first, second, strict=True))
-    return (float(dot(mixed, unit(to_light))),)
-
-
 def highlight(normal: Vector, to_light: Vector, to_eye: Vector, shininess: int) -> Vector:
     """Return max(0, N . H)^s of Blinn and Phong."""
     half = unit(shifted(unit(to_light), unit(to_eye)))
     return (max(0.0, dot(unit(normal), half)) ** shininess,)
-
-
-def highlight_inverted(normal: Vector, to_light: Vector, to_eye: Vector, shininess: int) -> Vector:
-    """Take 1/s for s."""
-    return (highlight(normal, to_light, to_eye, shininess)[0] ** (1 / shininess**2),)
 
 
 def light_byte(ambient: Any, diffuse_light: Any) -> Vector:
@@ -201,131 +185,97 @@ TWINS = (
     ),
 )
 
-RULES = (
-    WrongRule(
-        "normal-as-position",
-        "The normal was transformed by M. It goes with the transposed inverse of M.",
-        normal_in_world,
-        lambda scale, _shift, normal: unit(tuple(n * s for n, s in zip(normal, scale, strict=True))),
-        SLOPE,
-        ROUND,
-    ),
-    WrongRule(
-        "normal-untransformed",
-        "The normal was left in object space. It turns with the object.",
-        normal_in_world,
-        lambda _scale, _shift, normal: unit(normal),
-        SLOPE,
-        ROUND,
-    ),
-    WrongRule(
-        "normal-moved",
-        "The normal was moved with the object. It is a direction: its w is 0.",
-        normal_in_world,
-        lambda scale, shift, normal: unit(
-            shifted(shift, tuple(n / s for n, s in zip(normal, scale, strict=True)))
-        ),
-        ((1, 1, 1), (5, 0, 0), (1, 1, 0)),
-        ROUND,
-    ),
-    WrongRule(
-        "normal-by-projection",
-        "The normal matrix was made from P V M. Light is computed before the projection: take V M.",
-        normal_in_camera,
-        normal_by_projection,
-        (TURN, (2, 1, 1), (1, 1, 0)),
-        (TURN, (1, 1, 1), (1, 1, 0)),
-    ),
-    WrongRule(
-        "normal-too-long",
-        "The normal is not of length 1. Divide by its length first.",
-        diffuse,
-        lambda ambient, normal, to_light: (ambient + (1 - ambient) * max(0.0, dot(normal, unit(to_light))),),
-        (0.25, (0, 0, 2), (0, 3, 4)),
-        (0.25, (0, 0, 1), (0, 3, 4)),
-    ),
-    WrongRule(
-        "light-unclamped",
-        "N . L is negative on the dark side and took away from the ambient light: max(0, N . L).",
-        diffuse,
-        lambda ambient, normal, to_light: (ambient + (1 - ambient) * dot(unit(normal), unit(to_light)),),
-        (0.25, (0, 0, 1), (0, 0, -1)),
-        FACING,
-    ),
-    WrongRule(
-        "light-reversed",
-        "L points from the light to the surface. It points from the surface to the light.",
-        diffuse,
-        lambda ambient, normal, to_light: diffuse(ambient, normal, tuple(-c for c in to_light)),
-        FACING,
-        (0.25, (0, 0, 1), (1, 0, 0)),
-    ),
-    WrongRule(
-        "normal-not-renormalized",
-        "The interpolated normal is shorter than 1. Divide by its length again.",
-        between_normals,
-        between_normals_short,
-        ((1, 0, 0), (0, 1, 0), 0.5, (1, 1, 0)),
-        ((1, 0, 0), (1, 0, 0), 0.5, (1, 1, 0)),
-    ),
-    WrongRule(
-        "highlight-at-light",
-        "N . L was taken: the highlight lies under the light. H is halfway between L and V.",
-        highlight,
-        lambda normal, to_light, _to_eye, shininess: (
-            max(0.0, dot(unit(normal), unit(to_light))) ** shininess,
-        ),
-        SHINE,
-        STRAIGHT,
-    ),
-    WrongRule(
-        "highlight-at-eye",
-        "N . V was taken: the highlight follows the eye. H is halfway between L and V.",
-        highlight,
-        lambda normal, _to_light, to_eye, shininess: (
-            max(0.0, dot(unit(normal), unit(to_eye))) ** shininess,
-        ),
-        SHINE,
-        STRAIGHT,
-    ),
-    WrongRule(
-        "shininess-inverted",
-        "The exponent was inverted: a larger s makes a smaller highlight.",
-        highlight,
-        highlight_inverted,
-        SHINE,
-        STRAIGHT,
-    ),
-    WrongRule(
-        "byte-overflows",
-        "The sum was stored without a limit, and 256 became 0. Cut it off at 255.",
-        light_byte,
-        lambda ambient, diffuse_light: (int(255 * (ambient + diffuse_light) + 0.5) % 256,),
-        (0.4, 0.8),
-        (0.1, 0.8),
-    ),
-    WrongRule(
-        "phong-at-vertices",
-        "Phong was lit at the vertices. It interpolates normals and lights every fragment.",
-        lightings_by_fragment,
-        lambda triangles, vertices, _fragments: (triangles, vertices, vertices),
-        (1, 3, 40),
-        (1, 3, 3),
-    ),
-    WrongRule(
-        "level-without-size",
-        "The step in u was not multiplied by the size of the texture: the level counts texels per pixel.",
-        mip_level,
-        lambda _texels, uv_step: (log2(uv_step),),
-        (64, 1 / 16),
-        (1, 2.0),
-    ),
-    WrongRule(
-        "level-of-area",
-        "The level was taken from the area, which doubles it. It is log2 of the longer side.",
-        mip_level,
-        lambda texels, uv_step: (max(0.0, 2 * log2(texels * uv_step)),),
-        (64, 1 / 32),
-        (64, 1 / 64),
-    ),
+
+@wrong_rule(normal_in_world, shows=SLOPE, hides=ROUND)
+def normal_as_position(scale: Vector, shift: Vector, normal: Vector) -> Vector:
+    """The normal was transformed by M. It goes with the transposed inverse of M."""
+    return unit(tuple(n * s for n, s in zip(normal, scale, strict=True)))
+
+
+@wrong_rule(normal_in_world, shows=SLOPE, hides=ROUND)
+def normal_untransformed(scale: Vector, shift: Vector, normal: Vector) -> Vector:
+    """The normal was left in object space. It turns with the object."""
+    return unit(normal)
+
+
+@wrong_rule(normal_in_world, shows=((1, 1, 1), (5, 0, 0), (1, 1, 0)), hides=ROUND)
+def normal_moved(scale: Vector, shift: Vector, normal: Vector) -> Vector:
+    """The normal was moved with the object. It is a direction: its w is 0."""
+    return unit(shifted(shift, tuple(n / s for n, s in zip(normal, scale, strict=True))))
+
+
+@wrong_rule(normal_in_camera, shows=(TURN, (2, 1, 1), (1, 1, 0)), hides=(TURN, (1, 1, 1), (1, 1, 0)))
+def normal_by_projection(model_view: Matrix, focal: Vector, normal: Vector) -> Vector:
+    """The normal matrix was made from P V M. Light is computed before the projection: take V M."""
+    return unit(tuple(c / f for c, f in zip(image(model_view, normal), focal, strict=True)))
+
+
+@wrong_rule(diffuse, shows=(0.25, (0, 0, 2), (0, 3, 4)), hides=(0.25, (0, 0, 1), (0, 3, 4)))
+def normal_too_long(ambient: float, normal: Vector, to_light: Vector) -> Vector:
+    """The normal is not of length 1. Divide by its length first."""
+    return (ambient + (1 - ambient) * max(0.0, dot(normal, unit(to_light))),)
+
+
+@wrong_rule(diffuse, shows=(0.25, (0, 0, 1), (0, 0, -1)), hides=FACING)
+def light_unclamped(ambient: float, normal: Vector, to_light: Vector) -> Vector:
+    """N . L is negative on the dark side and took away from the ambient light: max(0, N . L)."""
+    return (ambient + (1 - ambient) * dot(unit(normal), unit(to_light)),)
+
+
+@wrong_rule(diffuse, shows=FACING, hides=(0.25, (0, 0, 1), (1, 0, 0)))
+def light_reversed(ambient: float, normal: Vector, to_light: Vector) -> Vector:
+    """L points from the light to the surface. It points from the surface to the light."""
+    return diffuse(ambient, normal, tuple(-c for c in to_light))
+
+
+@wrong_rule(
+    between_normals,
+    shows=((1, 0, 0), (0, 1, 0), 0.5, (1, 1, 0)),
+    hides=((1, 0, 0), (1, 0, 0), 0.5, (1, 1, 0)),
 )
+def normal_not_renormalized(first: Vector, second: Vector, t: Any, to_light: Vector) -> Vector:
+    """The interpolated normal is shorter than 1. Divide by its length again."""
+    mixed = tuple((1 - t) * a + t * b for a, b in zip(first, second, strict=True))
+    return (float(dot(mixed, unit(to_light))),)
+
+
+@wrong_rule(highlight, shows=SHINE, hides=STRAIGHT)
+def highlight_at_light(normal: Vector, to_light: Vector, to_eye: Vector, shininess: int) -> Vector:
+    """N . L was taken: the highlight lies under the light. H is halfway between L and V."""
+    return (max(0.0, dot(unit(normal), unit(to_light))) ** shininess,)
+
+
+@wrong_rule(highlight, shows=SHINE, hides=STRAIGHT)
+def highlight_at_eye(normal: Vector, to_light: Vector, to_eye: Vector, shininess: int) -> Vector:
+    """N . V was taken: the highlight follows the eye. H is halfway between L and V."""
+    return (max(0.0, dot(unit(normal), unit(to_eye))) ** shininess,)
+
+
+@wrong_rule(highlight, shows=SHINE, hides=STRAIGHT)
+def shininess_inverted(normal: Vector, to_light: Vector, to_eye: Vector, shininess: int) -> Vector:
+    """The exponent was inverted: a larger s makes a smaller highlight."""
+    return (highlight(normal, to_light, to_eye, shininess)[0] ** (1 / shininess**2),)
+
+
+@wrong_rule(light_byte, shows=(0.4, 0.8), hides=(0.1, 0.8))
+def byte_overflows(ambient: Any, diffuse_light: Any) -> Vector:
+    """The sum was stored without a limit, and 256 became 0. Cut it off at 255."""
+    return (int(255 * (ambient + diffuse_light) + 0.5) % 256,)
+
+
+@wrong_rule(lightings_by_fragment, shows=(1, 3, 40), hides=(1, 3, 3))
+def phong_at_vertices(triangles: int, vertices: int, fragments: int) -> Vector:
+    """Phong was lit at the vertices. It interpolates normals and lights every fragment."""
+    return (triangles, vertices, vertices)
+
+
+@wrong_rule(mip_level, shows=(64, 1 / 16), hides=(1, 2.0))
+def level_without_size(texels: int, uv_step: float) -> Vector:
+    """The step in u was not multiplied by the size of the texture: the level counts texels per pixel."""
+    return (log2(uv_step),)
+
+
+@wrong_rule(mip_level, shows=(64, 1 / 32), hides=(64, 1 / 64))
+def level_of_area(texels: int, uv_step: float) -> Vector:
+    """The level was taken from the area, which doubles it. It is log2 of the longer side."""
+    return (max(0.0, 2 * log2(texels * uv_step)),)

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from core.records.frame import Frame
 from core.scene import AnyScene, ClipScene
 from core.settings import DEFAULTS
 
+Wrong = TypeVar("Wrong", bound=Callable[..., Any])
 Reading = Callable[[ClipScene, Settings], object]
 """What is compared of a run that draws no frame; two readings are the same run where they compare equal."""
 
@@ -120,6 +121,34 @@ class WrongRule:
     """Arguments for which the two differ."""
     hides: tuple[Any, ...]
     """Arguments for which they are the same."""
+
+
+ENTERED: dict[str, list[WrongRule]] = {}
+"""Wrong formulas by the module that they stand in, in its order."""
+
+
+def wrong_rule(
+    right: Callable[..., Any], shows: tuple[Any, ...], hides: tuple[Any, ...], twin: Twin | None = None
+) -> Callable[[Wrong], Wrong]:
+    """Enter the function below as a wrong formula: its name is the mistake's name, its docstring the sentence.
+
+    Parameters
+    ----------
+    right, shows, hides
+        See `WrongRule`.
+    twin : Twin, optional
+        A run that makes the same mistake: its name and its sentence are taken.
+    """
+
+    def enter(wrong: Wrong) -> Wrong:
+        name, sentence = wrong.__name__.replace("_", "-"), " ".join((wrong.__doc__ or "").split())
+        if twin is not None:
+            name, sentence = twin.name, twin.sentence
+        rule = WrongRule(name, sentence, right, wrong, shows, hides)
+        ENTERED.setdefault(wrong.__module__, []).append(rule)
+        return wrong
+
+    return enter
 
 
 def right_reading(case: Case) -> object:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from itertools import pairwise
 
-from lessons.mistakes.twin import WrongRule
+from lessons.mistakes.twin import wrong_rule
 
 
 def shaded_early(depths: Sequence[int], pixels: int) -> tuple[int]:
@@ -13,11 +13,6 @@ def shaded_early(depths: Sequence[int], pixels: int) -> tuple[int]:
         if depth < nearest:
             nearest, count = depth, count + 1
     return (count * pixels,)
-
-
-def shaded_against_previous(depths: Sequence[int], pixels: int) -> tuple[int]:
-    """Compare each depth with the one before it alone."""
-    return ((1 + sum(new < old for old, new in pairwise(depths))) * pixels,)
 
 
 def after_prepass(depths: Sequence[int]) -> tuple[int, int]:
@@ -30,61 +25,43 @@ def rays_ask(width: int, height: int, triangles: int) -> tuple[int, int]:
     return width * height, width * height * triangles
 
 
-RULES = (
-    WrongRule(
-        "early-only-visible",
-        "Only what is seen in the end was counted. Where it comes late, what was nearest before it is shaded, too.",
-        shaded_early,
-        lambda depths, pixels: (pixels if depths else 0,),
-        ((5, 3, 1), 12),
-        ((1, 3, 5), 12),
-    ),
-    WrongRule(
-        "early-against-previous",
-        "Each depth was compared with the one before it. The depth buffer holds the nearest so far.",
-        shaded_early,
-        shaded_against_previous,
-        ((3, 5, 4), 12),
-        ((5, 3, 1), 12),
-    ),
-    WrongRule(
-        "early-shades-all",
-        "All fragments were counted. That is the late test, which shades before it compares.",
-        shaded_early,
-        lambda depths, pixels: (len(depths) * pixels,),
-        ((1, 3, 5), 12),
-        ((5, 3, 1), 12),
-    ),
-    WrongRule(
-        "prepass-then-less",
-        "After the prepass the test was still for less. No fragment is nearer than the nearest: ask for equal.",
-        after_prepass,
-        lambda depths: (0, 2 * len(depths)),
-        ((5, 3, 1),),
-        ((),),
-    ),
-    WrongRule(
-        "prepass-tested-once",
-        "Each fragment was tested once. A prepass draws all triangles twice, so each is tested twice.",
-        after_prepass,
-        lambda depths: (min(len(depths), 1), len(depths)),
-        ((5, 3, 1),),
-        ((),),
-    ),
-    WrongRule(
-        "ray-loops-swapped",
-        "Each triangle was counted once. That is the loop of the z-buffer; here every ray asks it again.",
-        rays_ask,
-        lambda width, height, triangles: (1, width * height * triangles),
-        (4, 3, 2),
-        (1, 1, 2),
-    ),
-    WrongRule(
-        "ray-asks-one",
-        "One test was counted for each ray. It asks all triangles before it knows the nearest.",
-        rays_ask,
-        lambda *size: (size[0] * size[1], size[0] * size[1]),
-        (4, 3, 2),
-        (4, 3, 1),
-    ),
-)
+@wrong_rule(shaded_early, shows=((5, 3, 1), 12), hides=((1, 3, 5), 12))
+def early_only_visible(depths: Sequence[int], pixels: int) -> tuple[int]:
+    """Only what is seen in the end was counted. Where it comes late, what was nearest before it is shaded, too."""
+    return (pixels if depths else 0,)
+
+
+@wrong_rule(shaded_early, shows=((3, 5, 4), 12), hides=((5, 3, 1), 12))
+def early_against_previous(depths: Sequence[int], pixels: int) -> tuple[int]:
+    """Each depth was compared with the one before it. The depth buffer holds the nearest so far."""
+    return ((1 + sum(new < old for old, new in pairwise(depths))) * pixels,)
+
+
+@wrong_rule(shaded_early, shows=((1, 3, 5), 12), hides=((5, 3, 1), 12))
+def early_shades_all(depths: Sequence[int], pixels: int) -> tuple[int]:
+    """All fragments were counted. That is the late test, which shades before it compares."""
+    return (len(depths) * pixels,)
+
+
+@wrong_rule(after_prepass, shows=((5, 3, 1),), hides=((),))
+def prepass_then_less(depths: Sequence[int]) -> tuple[int, int]:
+    """After the prepass the test was still for less. No fragment is nearer than the nearest: ask for equal."""
+    return (0, 2 * len(depths))
+
+
+@wrong_rule(after_prepass, shows=((5, 3, 1),), hides=((),))
+def prepass_tested_once(depths: Sequence[int]) -> tuple[int, int]:
+    """Each fragment was tested once. A prepass draws all triangles twice, so each is tested twice."""
+    return (min(len(depths), 1), len(depths))
+
+
+@wrong_rule(rays_ask, shows=(4, 3, 2), hides=(1, 1, 2))
+def ray_loops_swapped(width: int, height: int, triangles: int) -> tuple[int, int]:
+    """Each triangle was counted once. That is the loop of the z-buffer; here every ray asks it again."""
+    return (1, width * height * triangles)
+
+
+@wrong_rule(rays_ask, shows=(4, 3, 2), hides=(4, 3, 1))
+def ray_asks_one(*size: int) -> tuple[int, int]:
+    """One test was counted for each ray. It asks all triangles before it knows the nearest."""
+    return (size[0] * size[1], size[0] * size[1])

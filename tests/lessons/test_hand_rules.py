@@ -30,11 +30,11 @@ def test_turns_and_moves_are_products_of_the_matrices_of_the_core() -> None:
     R, T = rotation(np.array([0, 0, 1.0]), np.arctan2(4, 3)), translation(2, -1, 0)
     p = np.array([3, 4, 0, 1.0])
     near(transforms.turn_and_move(turn, shift, point), (T @ R @ p)[:2])
-    near(transforms.move_and_turn(turn, shift, point), (R @ T @ p)[:2])
+    near(transforms.factors_reversed(turn, shift, point), (R @ T @ p)[:2])
     plane = np.ix_([0, 1, 3], [0, 1, 3])
     near(transforms.scale_and_move((2, 3), shift), (T @ scaling(2, 3, 1))[plane].ravel())
     near(transforms.translated((2, -1, 0), (3, 4, 0)), T @ p)
-    near(transforms.translated_by_transpose((2, -1, 0), (3, 4, 0)), T.T @ p)
+    near(transforms.matrix_transposed((2, -1, 0), (3, 4, 0)), T.T @ p)
     near(transforms.turned_by(30, (3, 4)), (rotation(np.array([0, 0, 1.0]), radians(30)) @ p)[:2])
 
 

@@ -1,37 +1,17 @@
 """Every faulty twin shows in one scene and hides in another; the figures that go with some of them."""
 
+from importlib import import_module
+from pkgutil import iter_modules
+
 import numpy as np
 import pytest
 
 from core import Settings, render, trace
-from lessons.mistakes import (
-    bones,
-    boxes,
-    clipping,
-    coverage,
-    curves,
-    depths,
-    fragments,
-    history,
-    hit_lists,
-    occluders,
-    planes,
-    presenting,
-    reflections,
-    scan_conversion,
-    scan_lines,
-    shadows,
-    smoothing,
-    surfaces,
-    transforms,
-    visible_work,
-)
-from lessons.mistakes import clipping as cutting
-from lessons.mistakes import scan_conversion as lines
-from lessons.mistakes import surfaces as textures
+from lessons import mistakes
+from lessons.mistakes import coverage, scan_conversion
 from lessons.mistakes.clipping import ACROSS, segment
 from lessons.mistakes.shelf import MISTAKES, RULES, SHADERS, SHELF, twin_named
-from lessons.mistakes.twin import Twin, WrongRule, line_pixels, right_reading
+from lessons.mistakes.twin import ENTERED, Twin, WrongRule, line_pixels, right_reading
 
 
 @pytest.mark.parametrize("twin", SHELF.values(), ids=SHELF)
@@ -51,37 +31,9 @@ def test_a_wrong_formula_shows_in_one_place_and_hides_in_another(rule: WrongRule
 
 
 def test_names_are_unique_and_unknown_ones_refused() -> None:
-    runs = {
-        boxes,
-        occluders,
-        clipping,
-        coverage,
-        depths,
-        planes,
-        scan_conversion,
-        fragments,
-        lines,
-        textures,
-        shadows,
-        hit_lists,
-        reflections,
-    }
-    formulas = {
-        bones,
-        boxes,
-        curves,
-        cutting,
-        depths,
-        occluders,
-        planes,
-        reflections,
-        scan_conversion,
-        scan_lines,
-        shadows,
-        smoothing,
-    }
-    formulas |= {surfaces, textures, transforms, visible_work, presenting, history, hit_lists}
-    count = sum(len(module.TWINS) for module in runs) + sum(len(module.RULES) for module in formulas)
+    modules = [import_module(f"lessons.mistakes.{found.name}") for found in iter_modules(mistakes.__path__)]
+    assert len(SHELF) == sum(len(getattr(module, "TWINS", ())) for module in modules)
+    assert len(RULES) == sum(map(len, ENTERED.values()))
     both = SHELF.keys() & RULES.keys()
     assert both == {
         *("front-and-back-swapped", "octant-of-centre", "sorted-after-division"),
@@ -90,7 +42,7 @@ def test_names_are_unique_and_unknown_ones_refused() -> None:
         *("nearest-in-pyramid", "mean-in-pyramid"),
     }
     assert all(SHELF[name].sentence == RULES[name].sentence for name in both)
-    assert len(MISTAKES) == count - len(both) + len(SHADERS)
+    assert len(MISTAKES) == len(SHELF) + len(RULES) - len(both) + len(SHADERS)
     with pytest.raises(ValueError, match="expected a mistake such as corner-for-center"):
         twin_named("'; DROP TABLE twins")
 
@@ -112,12 +64,13 @@ def test_lines_go_wrong_where_they_are_known_to() -> None:
         settings = twin_named(name).change_settings(case.settings) if name else case.settings
         return line_pixels(case.scene, settings)
 
-    right = pixels("", lines.GENTLE)
+    right = pixels("", scan_conversion.GENTLE)
     columns = {
-        name: {x for x, _ in pixels(name, lines.GENTLE) ^ right} for name in ("ties-step", "row-truncated")
+        name: {x for x, _ in pixels(name, scan_conversion.GENTLE) ^ right}
+        for name in ("ties-step", "row-truncated")
     }
     assert columns == {"ties-step": {5}, "row-truncated": {3, 6, 8}}
-    assert {x for x, _ in pixels("start-not-doubled", lines.GENTLE) ^ right} == {8}
+    assert {x for x, _ in pixels("start-not-doubled", scan_conversion.GENTLE) ^ right} == {8}
     steep = twin_named("one-octant").shows
     assert {y for _, y in pixels("one-octant", steep)} == {1, 2, 3}
     assert max(y for _, y in pixels("slope-always-up", twin_named("slope-always-up").shows)) == 7
@@ -165,11 +118,11 @@ def test_mistakes_that_draw_the_same_are_known() -> None:
 
 
 def test_a_faulty_line_can_be_stepped() -> None:
-    faulty = twin_named("ties-step").change_settings(lines.LECTURE)
-    traced = trace(lines.GENTLE.scene, faulty).stage("raster")
+    faulty = twin_named("ties-step").change_settings(scan_conversion.LECTURE)
+    traced = trace(scan_conversion.GENTLE.scene, faulty).stage("raster")
     last = traced.state(traced.steps.count)["overdraw"]
-    np.testing.assert_array_equal(last, render(lines.GENTLE.scene, faulty).cover_count)
-    assert (last != render(lines.GENTLE.scene, lines.LECTURE).cover_count).any()
+    np.testing.assert_array_equal(last, render(scan_conversion.GENTLE.scene, faulty).cover_count)
+    assert (last != render(scan_conversion.GENTLE.scene, scan_conversion.LECTURE).cover_count).any()
 
 
 ROWS = {

@@ -3,7 +3,7 @@
 from lessons.exercises.drafting import MARKS, by_rule, several
 from lessons.exercises.numbers import Draws, reject
 from lessons.exercises.question import Draft, template
-from lessons.mistakes.shadows import comparison_of_mean, lit_points, mean_of_comparisons
+from lessons.mistakes.shadows import lit_points, mean_of_comparisons, shadow_depths_averaged
 from lessons.mistakes.shelf import RULES
 
 
@@ -40,7 +40,7 @@ def draw_share_of_light(draws: Draws) -> Draft:
         depth in stored
         or share in (0, 1)
         or share * 2 == 1
-        or comparison_of_mean(stored, depth)[0] == 1 - share
+        or shadow_depths_averaged(stored, depth)[0] == 1 - share
     )
     first = "at least" if stored[0] >= depth else "less than"
     asked = f"""A point at the depth {depth} from the light lies among four texels of a shadow map. The bias is 0. What

@@ -22,8 +22,9 @@ from core.settings import families
 from core.shaders.presets import preset_program
 from core.shading.lighting import blinn_phong
 from core.textures.footprints import slopes_of_edit
-from lessons.mistakes import clipping, coverage, depths, fragments, surfaces
+from lessons.mistakes import clipping, coverage, depths, fragments
 from lessons.mistakes import surfaces as textures
+from lessons.mistakes.shelf import RULES
 from lessons.scenes import make_scene
 
 TWINS = {
@@ -342,7 +343,7 @@ LIGHTS = {
 
 @pytest.mark.parametrize("name", LIGHTS)
 def test_a_mistake_in_the_light_that_is_an_edit_of_a_line_is_its_formula(name):
-    rule = next(rule for rule in surfaces.RULES if rule.name == name)
+    rule = RULES[name]
     typed = Typed(blinn_phong, edit("shading", *LIGHTS[name]).text)
     right = Typed(blinn_phong, original("shading", "phong").source)
     for numbers in (rule.shows, rule.hides):
