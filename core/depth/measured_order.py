@@ -255,7 +255,7 @@ def make_clipping(assignment: Assignment) -> ClippingTask:
 
 CLIPPING = StudyFamily(
     "clipping",
-    "Polygon clipping",
+    "Clipping of triangles",
     ("clipping",),
     (
         WorkKind("near", "Triangles across the near plane", "triangle", (COUNTS,)),

@@ -4,6 +4,7 @@
 empty. It numbers its edits from FIRST and writes each number to the standard output when the edit is done.
 """
 
+import faulthandler
 import random
 import signal
 import sys
@@ -63,6 +64,7 @@ class Editor:
         self.timer.setInterval(self.random.randrange(LONGEST_PAUSE))
 
 
+faulthandler.enable()
 # A shell starts what runs in the background with Ctrl+C ignored, and with it its children.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 the_application()

@@ -53,7 +53,11 @@ class EditedSession:
         at = time.monotonic()
         for _ in range(times):
             self.process.send_signal(getattr(signal, name))
-        self.process.wait(60)
+        try:
+            self.process.wait(60)
+        except subprocess.TimeoutExpired:
+            self.process.send_signal(signal.SIGABRT)  # It tells what each of its threads is at.
+            pytest.fail(f"{name} after edit {self.edits[-1][0]}: {self.process.stderr.read()}")
         self.listener.join()
         with self.process.stderr, self.process.stdout:
             assert self.process.stderr.read() == ""
