@@ -1,12 +1,11 @@
 """The depth of the occluders beside the boxes: the level of the pyramid at hand, and what a box is compared with."""
 
 import numpy as np
-from PySide6.QtCore import QPoint, Slot
-from PySide6.QtWidgets import QMenu, QWidget
+from PySide6.QtWidgets import QWidget
 
 from app.session.moment import Moment
-from app.session.passes import open_pass, passes_of
-from app.views.companions import GridBeside
+from app.session.passes import passes_of
+from app.views.pass_view import OpensPass
 from core.culling.traced_occlusion import OCCLUSION_OPERATIONS
 from core.records.words import joined
 from widgets.grid.layers import GridBuffer
@@ -16,8 +15,8 @@ WITHOUT_DEPTH = ("occluder", "no-occluder")
 """Kinds of rows that come before there is a depth."""
 
 
-class OccludersBeside(GridBeside):
-    """A level of the pyramid; a right click opens the pass that draws its bottom."""
+class OccludersBeside(OpensPass):
+    """A level of the pyramid, and the pass that draws its bottom."""
 
     name, is_alike = "occluders", False
 
@@ -25,10 +24,11 @@ class OccludersBeside(GridBeside):
         """Return the grid below its title, with a menu."""
         pane = super().make_widget()
         self.grid.setAccessibleName("Pyramid over the depth of the occluders")
-        self.grid.pixel_menu_requested.connect(self._offer)
-        self.menu = QMenu(pane)
-        self.menu.addAction("Open this pass").triggered.connect(self._open)
         return pane
+
+    def pass_number(self, moment: Moment) -> int:
+        """Return the pass that draws the occluders."""
+        return [planned.name for planned in passes_of(moment.document)].index("occluders")
 
     def is_wanted(self, moment: Moment) -> bool:
         """Return whether the row at hand makes a level, or compares a box with one."""
@@ -66,12 +66,3 @@ class OccludersBeside(GridBeside):
             said = f"Compared with: {joined(named)}." if named else said
         self.grid.show_step(mark)
         self.grid.setAccessibleDescription(said)
-
-    @Slot(int, int, QPoint)
-    def _offer(self, _column: int, _row: int, place: QPoint) -> None:
-        self.menu.popup(place)
-
-    @Slot()
-    def _open(self) -> None:
-        names = [planned.name for planned in passes_of(self.moment.document)]
-        open_pass(self.session, names.index("occluders"))

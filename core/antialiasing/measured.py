@@ -17,6 +17,7 @@ import numpy as np
 
 from core.coverage.measured_exactly import area_in_pixels
 from core.coverage.pixel_runs import make_raster
+from core.coverage.snapping import snap, window_position
 from core.pipeline import draw
 from core.records.arrays import Flags, Floats, Integers
 from core.records.frame import Frame
@@ -279,9 +280,7 @@ class ThinCase(Case):
 
 def counter_clockwise_window(scene: ClipScene) -> Floats:
     """Return the corners (3, 2) of the first triangle in pixels, on the 1/256-pixel grid, counter-clockwise."""
-    clip = scene.clip[0]
-    window = (clip[:, :2] / clip[:, 3:] + 1) / 2 * scene.size
-    window = np.rint(256 * window) / 256
+    window, _ = snap(window_position(scene.clip[0], scene.size))
     (x1, y1), (x2, y2) = window[1:] - window[0]
     return np.asarray(window[::-1] if x1 * y2 < y1 * x2 else window)
 

@@ -321,3 +321,17 @@ class Either:
     def __call__(self, columns: Columns, rows: Any) -> NDArray[np.str_]:
         """Return the labels (C,) of rows."""
         return np.where(columns[self.flag][rows], self.when_set, self.otherwise)
+
+
+@dataclass(frozen=True)
+class Found:
+    """`Labels` of a search: the line before its loop has given the result where nothing was found."""
+
+    number: str
+    """The column (R,) int64 of what was found; -1: nothing."""
+    before: str
+    within: str
+
+    def __call__(self, columns: Columns, rows: Any) -> NDArray[np.str_]:
+        """Return the labels (C,) of rows."""
+        return np.where(columns[self.number][rows] < 0, self.before, self.within)

@@ -10,11 +10,10 @@ from math import inf
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from core.methods import method
 from core.records.arrays import Flags, Floats, Integers
-from core.records.listing import Columns, Operation
+from core.records.listing import Found, Operation
 from core.shading.environment import AFTER, BEFORE, Mirrored, Surroundings, reflect
 from core.shading.lighting import Planes, Vector, dot, inner, planes
 
@@ -76,11 +75,6 @@ def ray_color(
     return red, green, blue, own[3]
 
 
-def _free_or_met(columns: Columns, rows: Integers) -> NDArray[Any]:
-    """Return the line that has given the triangle: the one before the loop where there is none."""
-    return np.where(columns["met"][rows] < 0, "free", "ray")
-
-
 @method(
     "environment",
     "rays",
@@ -95,7 +89,7 @@ def _free_or_met(columns: Columns, rows: Integers) -> NDArray[Any]:
     operations={
         "mirror": (
             *BEFORE,
-            Operation("ray", _free_or_met, {"met": "met", "met_distance": "nearest"}),
+            Operation("ray", Found("met", "free", "ray"), {"met": "met", "met_distance": "nearest"}),
             Operation("look-up", "look-up", {"seen": "seen"}),
             *AFTER,
         )

@@ -6,18 +6,17 @@ before a point where it covers the point's column and row at a smaller depth: a 
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from core.methods import method
 from core.records.arrays import Flags, Floats, Integers
-from core.records.listing import RETURN, Columns, Operation
+from core.records.listing import RETURN, Found, Operation
 from core.shading.shadows import Lamp, in_light_space
 
 OWN_SURFACE = 1e-9
 """Nearer than this, in depth, a triangle is the surface that the point lies on."""
+FREE_OR_MET = Found("blocker", "free", "ray")
 PAIRS = 1 << 20
 """Points times triangles that are looked at together."""
 
@@ -57,11 +56,6 @@ def ray_share(
     return 1.0 if blocker < 0 else 0.0  #: share
 
 
-def _free_or_met(columns: Columns, rows: Integers) -> NDArray[Any]:
-    """Return the line that has given the nearest blocker: the one before the loop where there is none."""
-    return np.where(columns["blocker"][rows] < 0, "free", "ray")
-
-
 @method(
     "shadow",
     "rays",
@@ -74,7 +68,11 @@ def _free_or_met(columns: Columns, rows: Integers) -> NDArray[Any]:
     operations={
         "shadow": (
             Operation("light-space", "light-space", {"lamp_u": "u", "lamp_v": "v", "lamp_depth": "depth"}),
-            Operation("shadow-ray", _free_or_met, {"blocker": "blocker", "blocker_depth": "nearest"}),
+            Operation(
+                "shadow-ray",
+                Found("blocker", "free", "ray"),
+                {"blocker": "blocker", "blocker_depth": "nearest"},
+            ),
             Operation("share", "share", {"light_share": RETURN}),
         )
     },
