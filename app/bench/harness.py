@@ -27,23 +27,13 @@ from app.bench import (
     ours_child,
     ours_shared,
     pillow_peer,
+    records,
     skimage_peer,
     trimesh_peer,
     typed_text,
     vtk_peer,
 )
 from app.bench.first_picture import ARRAYS, PIXELS
-from app.bench.records import (
-    Bytes,
-    ColdStart,
-    Contender,
-    MeshFile,
-    Prepared,
-    TypedPicture,
-    UnavailableError,
-    WindowTriangles,
-    Work,
-)
 from app.bench.reference import Difference, Reference, compare, make_reference
 from app.bench.workloads import Workload
 from core.study.record import collector_off
@@ -57,15 +47,15 @@ CHILD = "app.bench.first_picture"
 ROOT = Path(__file__).resolve().parents[2]
 
 
-def cold_contender(module: ModuleType, work: ColdStart) -> Contender | None:
+def cold_contender(module: ModuleType, work: records.ColdStart) -> records.Contender | None:
     """Return a library drawing in processes of their own, or ``None`` if it does not draw triangles."""
-    warm: Contender | None = module.contender(work.triangles)
+    warm: records.Contender | None = module.contender(work.triangles)
     if warm is None:
         return None
     return replace(warm, prepare=lambda stack: prepare(module.__name__, work.triangles, stack))
 
 
-def prepare(module: str, work: WindowTriangles, stack: ExitStack) -> Prepared:
+def prepare(module: str, work: records.WindowTriangles, stack: ExitStack) -> records.Prepared:
     """Write the triangles where the processes will find them."""
     folder = Path(stack.enter_context(TemporaryDirectory(prefix="rasterscope-bench-")))
     for name in ARRAYS:
@@ -77,15 +67,15 @@ def prepare(module: str, work: WindowTriangles, stack: ExitStack) -> Prepared:
     # The run that checks the picture leaves compiled files behind, as installing does for the other libraries.
     environment.pop("PYTHONDONTWRITEBYTECODE", None)
 
-    def run() -> Bytes:
+    def run() -> records.Bytes:
         done = subprocess.run(command, env=environment, capture_output=True, text=True)
         if done.returncode != 0:
             lines = done.stderr.strip().splitlines()
-            raise UnavailableError(lines[-1] if lines else f"exit code {done.returncode}")
-        drawn: Bytes = np.load(pixels)
+            raise records.UnavailableError(lines[-1] if lines else f"exit code {done.returncode}")
+        drawn: records.Bytes = np.load(pixels)
         return drawn
 
-    return Prepared(run)
+    return records.Prepared(run)
 
 
 # The libraries that take part, each a module with ``LIBRARY``, ``DISTRIBUTION`` and ``contender(work)``.
@@ -98,13 +88,13 @@ LIBRARIES: tuple[ModuleType, ...] = (
 """All of them, ours first. VTK ends every EGL context that was opened before its own: it must begin before OpenGL."""
 
 
-def contender_of(library: ModuleType, work: Work) -> Contender | None:
+def contender_of(library: ModuleType, work: records.Work) -> records.Contender | None:
     """Return a library drawing a workload, or ``None`` where it has no way to."""
-    if isinstance(work, ColdStart):
+    if isinstance(work, records.ColdStart):
         return cold_contender(library, work)
-    if isinstance(work, TypedPicture) and library not in (ours, typed_text):
+    if isinstance(work, records.TypedPicture) and library not in (ours, typed_text):
         return None
-    found: Contender | None = library.contender(work)
+    found: records.Contender | None = library.contender(work)
     return found
 
 
@@ -182,7 +172,7 @@ Note = Callable[[str], None]
 class Entry:
     """One library on one workload."""
 
-    contender: Contender
+    contender: records.Contender
     version: str
     detail: str
     difference: Difference
@@ -249,9 +239,9 @@ class Result:
 class _Ready:
     """A contender that has drawn once."""
 
-    contender: Contender
+    contender: records.Contender
     version: str
-    prepared: Prepared
+    prepared: records.Prepared
     difference: Difference
 
 
@@ -281,12 +271,12 @@ def run_workload(workload: Workload, libraries: Sequence[ModuleType], rounds: in
                 missing.append(Missing(each.contender.library, "while it was timed it drew another picture"))
     height, width = reference.covered.shape
     counts = Counts(reference.primitive_count, reference.fragment_count, reference.pixel_count)
-    size = None if isinstance(work, MeshFile) else (width, height)
+    size = None if isinstance(work, records.MeshFile) else (width, height)
     return Result(workload, size, counts, tuple(entries), tuple(missing))
 
 
 def _make_ready(
-    library: ModuleType, work: Work, reference: Reference, stack: ExitStack
+    library: ModuleType, work: records.Work, reference: Reference, stack: ExitStack
 ) -> _Ready | Missing | None:
     """Let a library draw once and compare; ``None`` where it has no way to draw this."""
     contender = contender_of(library, work)

@@ -4,34 +4,26 @@ from typing import Any
 
 import numpy as np
 
-from app.bench.records import (
-    Bytes,
-    Contender,
-    Prepared,
-    ViewedMesh,
-    WindowTriangles,
-    Work,
-    back_to_front,
-    lit_colors,
-    not_sorted,
-)
+from app.bench import records
 
 LIBRARY = "matplotlib"
 DISTRIBUTION = "matplotlib"
 DOTS_PER_INCH = 100
 
 
-def contender(work: Work) -> Contender | None:
+def contender(work: records.Work) -> records.Contender | None:
     """Return matplotlib drawing ``work``, or ``None`` where it has no way to."""
-    if isinstance(work, WindowTriangles) and work.is_flat:
-        return Contender(LIBRARY, "painter", lambda _: prepare_triangles(work), not_sorted(work), True)
-    if isinstance(work, ViewedMesh) and work.texture is None and work.lighting is not None:
+    if isinstance(work, records.WindowTriangles) and work.is_flat:
+        return records.Contender(
+            LIBRARY, "painter", lambda _: prepare_triangles(work), records.not_sorted(work), True
+        )
+    if isinstance(work, records.ViewedMesh) and work.texture is None and work.lighting is not None:
         less = "no depth, one colour a face"
-        return Contender(LIBRARY, "painter", lambda _: prepare_mesh(work), less, True)
+        return records.Contender(LIBRARY, "painter", lambda _: prepare_mesh(work), less, True)
     return None
 
 
-def prepare_triangles(work: WindowTriangles) -> Prepared:
+def prepare_triangles(work: records.WindowTriangles) -> records.Prepared:
     """Hold the polygons as a collection, from far to near."""
     from matplotlib.collections import PolyCollection
 
@@ -40,15 +32,15 @@ def prepare_triangles(work: WindowTriangles) -> Prepared:
     axes.set_axis_off()
     axes.set_xlim(0, work.size[0])
     axes.set_ylim(0, work.size[1])
-    order = back_to_front(work)
+    order = records.back_to_front(work)
     colors = work.colors[order, 0] / 255
     axes.add_collection(
         PolyCollection(work.corners[order], facecolors=colors, edgecolors="none", antialiased=False)
     )
-    return Prepared(lambda: drawn(canvas))
+    return records.Prepared(lambda: drawn(canvas))
 
 
-def prepare_mesh(work: ViewedMesh) -> Prepared:
+def prepare_mesh(work: records.ViewedMesh) -> records.Prepared:
     """Hold the faces as a 3D collection that is seen through the workload's own matrices."""
     from mpl_toolkits.mplot3d import Axes3D
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
@@ -57,7 +49,7 @@ def prepare_mesh(work: ViewedMesh) -> Prepared:
     axes: Any = Axes3D(figure, rect=(0, 0, 1, 1), facecolor="black")
     figure.add_axes(axes)
     axes.set_axis_off()
-    colors = lit_colors(work)[work.triangles].mean(axis=1) / 255
+    colors = records.lit_colors(work)[work.triangles].mean(axis=1) / 255
     axes.add_collection3d(
         Poly3DCollection(
             work.positions[work.triangles], facecolors=colors, edgecolors="none", antialiased=False
@@ -68,7 +60,7 @@ def prepare_mesh(work: ViewedMesh) -> Prepared:
     matrix = work.projection @ work.view
     axes.get_proj = lambda: matrix
     axes.viewLim.intervalx = axes.viewLim.intervaly = (-1, 1)
-    return Prepared(lambda: drawn(canvas))
+    return records.Prepared(lambda: drawn(canvas))
 
 
 def empty_figure(size: tuple[int, int]) -> tuple[Any, Any]:
@@ -81,7 +73,7 @@ def empty_figure(size: tuple[int, int]) -> tuple[Any, Any]:
     return figure, FigureCanvasAgg(figure)
 
 
-def drawn(canvas: Any) -> Bytes:
+def drawn(canvas: Any) -> records.Bytes:
     """Draw the figure and return its pixels."""
     canvas.draw()
     return np.asarray(canvas.buffer_rgba())

@@ -4,31 +4,25 @@ from typing import Any
 
 import numpy as np
 
-from app.bench.records import (
-    Bytes,
-    Contender,
-    Prepared,
-    ViewedMesh,
-    WindowTriangles,
-    Work,
-    as_window_triangles,
-)
+from app.bench import records
 
 LIBRARY = "numba"
 DISTRIBUTION = "numba"
 
 
-def contender(work: Work) -> Contender | None:
+def contender(work: records.Work) -> records.Contender | None:
     """Return the compiled loop drawing ``work``, or ``None`` where it has no way to."""
-    if isinstance(work, WindowTriangles):
-        return Contender(LIBRARY, "compiled", lambda _: prepare(work))
-    if isinstance(work, ViewedMesh) and work.texture is None:
+    if isinstance(work, records.WindowTriangles):
+        return records.Contender(LIBRARY, "compiled", lambda _: prepare(work))
+    if isinstance(work, records.ViewedMesh) and work.texture is None:
         less = "raster only: transformed, culled and lit beforehand"
-        return Contender(LIBRARY, "compiled", lambda _: prepare(as_window_triangles(work)), less)
+        return records.Contender(
+            LIBRARY, "compiled", lambda _: prepare(records.as_window_triangles(work)), less
+        )
     return None
 
 
-def prepare(work: WindowTriangles) -> Prepared:
+def prepare(work: records.WindowTriangles) -> records.Prepared:
     """Compile the loop for these triangles, by drawing them once."""
     import numba
 
@@ -37,14 +31,14 @@ def prepare(work: WindowTriangles) -> Prepared:
     colors = work.colors.astype(np.float64)
     loop: Any = numba.njit(draw_triangles)
 
-    def run() -> Bytes:
+    def run() -> records.Bytes:
         nearest = np.full((height, width), np.inf)
         image = np.zeros((height, width, 3), np.float64 if blends else np.uint8)
         loop(corners, depth, colors, blends, nearest, image)
         return (image + 0.5).astype(np.uint8) if blends else image
 
     run()
-    return Prepared(run)
+    return records.Prepared(run)
 
 
 def draw_triangles(corners: Any, depth: Any, colors: Any, blends: bool, nearest: Any, image: Any) -> None:

@@ -8,16 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app.bench.records import (
-    Bytes,
-    Contender,
-    Lines,
-    Prepared,
-    UnavailableError,
-    ViewedMesh,
-    WindowTriangles,
-    Work,
-)
+from app.bench import records
 
 Singles = NDArray[np.float32]
 
@@ -82,16 +73,16 @@ void main() {
 """
 
 
-def contender(work: Work) -> Contender | None:
+def contender(work: records.Work) -> records.Contender | None:
     """Return OpenGL drawing ``work``, or ``None`` where it has no way to."""
-    if isinstance(work, WindowTriangles):
-        return Contender(LIBRARY, "graphics", lambda stack: prepare_triangles(work, stack))
-    if isinstance(work, Lines):
-        return Contender(
+    if isinstance(work, records.WindowTriangles):
+        return records.Contender(LIBRARY, "graphics", lambda stack: prepare_triangles(work, stack))
+    if isinstance(work, records.Lines):
+        return records.Contender(
             LIBRARY, "graphics", lambda stack: prepare_lines(work, stack), "its own rule for lines"
         )
-    if isinstance(work, ViewedMesh):
-        return Contender(LIBRARY, "graphics", lambda stack: prepare_mesh(work, stack))
+    if isinstance(work, records.ViewedMesh):
+        return records.Contender(LIBRARY, "graphics", lambda stack: prepare_mesh(work, stack))
     return None
 
 
@@ -106,7 +97,7 @@ def open_context(stack: ExitStack) -> Any:
         loader = make(mode="standalone", glversion=330)
         context = moderngl.create_context(context=loader, standalone=True)
     except Exception as error:  # glcontext raises plain Exception
-        raise UnavailableError(f"OpenGL 3.3 could not be started: {error}") from error
+        raise records.UnavailableError(f"OpenGL 3.3 could not be started: {error}") from error
     stack.callback(context.release)
     return context
 
@@ -123,11 +114,11 @@ class Canvas:
             self.frame = self.context.framebuffer([color], depth)
             self.context.enable_only(self.context.DEPTH_TEST | self.context.CULL_FACE)
 
-    def prepared(self, array: Any, mode: int, set_uniforms: Callable[[], None]) -> Prepared:
+    def prepared(self, array: Any, mode: int, set_uniforms: Callable[[], None]) -> records.Prepared:
         """Draw a vertex array into the cleared framebuffer and read the colours back."""
         pixels = np.empty((self.size[1], self.size[0], 4), np.uint8)
 
-        def run() -> Bytes:
+        def run() -> records.Bytes:
             with self.context:
                 self.frame.use()
                 self.frame.clear(0, 0, 0, 0, depth=1)
@@ -136,12 +127,12 @@ class Canvas:
                 self.frame.read_into(pixels, components=4)
             return pixels
 
-        return Prepared(run, lambda: self.renderer)
+        return records.Prepared(run, lambda: self.renderer)
 
 
 def prepare_flat(
-    canvas: Canvas, position: Singles, colors: Bytes, is_flat: bool, mode: int, enabled: int
-) -> Prepared:
+    canvas: Canvas, position: Singles, colors: records.Bytes, is_flat: bool, mode: int, enabled: int
+) -> records.Prepared:
     """Hold vertices (V, 4) in clip space with their colours (V, 4)."""
     context = canvas.context
     qualifier = {"qualifier": "flat" if is_flat else "smooth"}
@@ -155,7 +146,7 @@ def prepare_flat(
     return canvas.prepared(array, mode, lambda: None)
 
 
-def prepare_triangles(work: WindowTriangles, stack: ExitStack) -> Prepared:
+def prepare_triangles(work: records.WindowTriangles, stack: ExitStack) -> records.Prepared:
     """Hold window triangles in a vertex buffer."""
     canvas = Canvas(work.size, stack)
     context = canvas.context
@@ -167,7 +158,7 @@ def prepare_triangles(work: WindowTriangles, stack: ExitStack) -> Prepared:
     return prepare_flat(canvas, position.reshape(-1, 4), colors, work.is_flat, context.TRIANGLES, enabled)
 
 
-def prepare_lines(work: Lines, stack: ExitStack) -> Prepared:
+def prepare_lines(work: records.Lines, stack: ExitStack) -> records.Prepared:
     """Hold lines from pixel centre to pixel centre in a vertex buffer; OpenGL leaves the last pixel out."""
     canvas = Canvas(work.size, stack)
     position = np.zeros((2 * len(work.ends), 4), np.float32)
@@ -178,7 +169,7 @@ def prepare_lines(work: Lines, stack: ExitStack) -> Prepared:
     return prepare_flat(canvas, position, colors, True, canvas.context.LINES, 0)
 
 
-def prepare_mesh(work: ViewedMesh, stack: ExitStack) -> Prepared:
+def prepare_mesh(work: records.ViewedMesh, stack: ExitStack) -> records.Prepared:
     """Hold the mesh in buffers on the OpenGL side; matrices and light are set anew for every picture."""
     canvas = Canvas(work.size, stack)
     context = canvas.context
@@ -208,7 +199,7 @@ def prepare_mesh(work: ViewedMesh, stack: ExitStack) -> Prepared:
     return canvas.prepared(array, context.TRIANGLES, lambda: set_view(program, work))
 
 
-def set_view(program: Any, work: ViewedMesh) -> None:
+def set_view(program: Any, work: records.ViewedMesh) -> None:
     """Set the uniforms that the program has."""
     program["matrix"].write((work.projection @ work.view).T.astype(np.float32).tobytes())
     light = work.lighting

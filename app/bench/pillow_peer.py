@@ -2,49 +2,38 @@
 
 import numpy as np
 
-from app.bench.records import (
-    Bytes,
-    Contender,
-    Lines,
-    Prepared,
-    ViewedMesh,
-    WindowTriangles,
-    Work,
-    back_to_front,
-    floor_homography,
-    painter,
-)
+from app.bench import records
 
 LIBRARY = "Pillow"
 DISTRIBUTION = "pillow"
 
 
-def contender(work: Work) -> Contender | None:
+def contender(work: records.Work) -> records.Contender | None:
     """Return Pillow drawing ``work``, or ``None`` where it has no way to."""
-    return painter(LIBRARY, work, (prepare_triangles, prepare_lines, prepare_floor), is_top_down=True)
+    return records.painter(LIBRARY, work, (prepare_triangles, prepare_lines, prepare_floor), is_top_down=True)
 
 
-def prepare_triangles(work: WindowTriangles) -> Prepared:
+def prepare_triangles(work: records.WindowTriangles) -> records.Prepared:
     """Hold polygons as flat lists, from far to near; blended ones in drawing order."""
     from PIL import Image, ImageDraw
 
-    order = back_to_front(work)
+    order = records.back_to_front(work)
     # Pillow's pixel centres are whole numbers, its rows run downwards.
     corners = np.array([-0.5, work.size[1] - 0.5]) + work.corners[order] * np.array([1, -1])
     polygons = corners.reshape(-1, 6).tolist()
     colors = [tuple(color) for color in work.colors[order, 0].tolist()]
 
-    def run() -> Bytes:
+    def run() -> records.Bytes:
         image = Image.new("RGB", work.size)
         draw = ImageDraw.Draw(image, "RGBA" if work.is_blended else "RGB").polygon
         for polygon, color in zip(polygons, colors, strict=True):
             draw(polygon, fill=color)
         return np.asarray(image)
 
-    return Prepared(run)
+    return records.Prepared(run)
 
 
-def prepare_lines(work: Lines) -> Prepared:
+def prepare_lines(work: records.Lines) -> records.Prepared:
     """Hold the ends as lists."""
     from PIL import Image, ImageDraw
 
@@ -52,28 +41,28 @@ def prepare_lines(work: Lines) -> Prepared:
     ends = (np.array([0, last_row, 0, last_row]) + work.ends * np.array([1, -1, 1, -1])).tolist()
     colors = [tuple(color) for color in work.colors.tolist()]
 
-    def run() -> Bytes:
+    def run() -> records.Bytes:
         image = Image.new("RGB", work.size)
         draw = ImageDraw.Draw(image).line
         for line, color in zip(ends, colors, strict=True):
             draw(line, fill=color)
         return np.asarray(image)
 
-    return Prepared(run)
+    return records.Prepared(run)
 
 
-def prepare_floor(work: ViewedMesh) -> Prepared:
+def prepare_floor(work: records.ViewedMesh) -> records.Prepared:
     """Hold the texture as an image."""
     from PIL import Image
 
     assert work.texture is not None
-    homography = floor_homography(work)
+    homography = records.floor_homography(work)
     coefficients = (homography / homography[2, 2]).ravel()[:8].tolist()
     texture = Image.fromarray(work.texture)
 
-    def run() -> Bytes:
+    def run() -> records.Bytes:
         return np.asarray(
             texture.transform(work.size, Image.Transform.PERSPECTIVE, coefficients, Image.Resampling.BILINEAR)
         )
 
-    return Prepared(run)
+    return records.Prepared(run)

@@ -10,20 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.bench.records import (
-    SUBPIXELS,
-    Bytes,
-    ColdStart,
-    Floats,
-    Integers,
-    Lines,
-    MeshFile,
-    TypedPicture,
-    ViewedMesh,
-    WindowTriangles,
-    Work,
-    project,
-)
+from app.bench import records
 from app.bench.typed_text import by_rule, pixels_of
 from app.bench.workloads import corner_picture, lights_of, mesh_of, method_names, view_of
 from core import Frame, Settings, render
@@ -39,7 +26,7 @@ class Reference:
 
     covered: Flags
     """(H, W) bool, row 0 at the bottom."""
-    colors: Bytes
+    colors: records.Bytes
     """(H, W, 3) uint8; 0 where nothing is drawn."""
     primitive_count: int
     """Triangles or lines that are given."""
@@ -57,43 +44,43 @@ class Cover:
     """The pixels of one triangle."""
 
     triangle: int
-    rows: Integers
+    rows: records.Integers
     """(F,) int64; also ``columns``."""
-    columns: Integers
-    weights: Floats
+    columns: records.Integers
+    weights: records.Floats
     """(F, 3) float64 barycentric weights of the pixel centres, quotients of whole numbers."""
 
 
-def make_reference(work: Work) -> Reference:
+def make_reference(work: records.Work) -> Reference:
     """Return what the picture of a workload must be."""
-    if isinstance(work, ColdStart):
+    if isinstance(work, records.ColdStart):
         return make_reference(work.triangles)
-    if isinstance(work, Lines):
+    if isinstance(work, records.Lines):
         return _line_reference(work)
-    if isinstance(work, MeshFile):
+    if isinstance(work, records.MeshFile):
         corners = corner_picture(work.positions, work.triangles)
         return Reference(np.asarray(corners.any(axis=2)), corners, len(corners), corners.size // 3)
-    if isinstance(work, ViewedMesh):
+    if isinstance(work, records.ViewedMesh):
         return _mesh_reference(work)
-    if isinstance(work, TypedPicture):
+    if isinstance(work, records.TypedPicture):
         return _rule_reference(work)
     return _blended_reference(work) if work.is_blended else _nearest_reference(work)
 
 
-def cover_triangles(corners: Floats, size: tuple[int, int]) -> Iterator[Cover]:
+def cover_triangles(corners: records.Floats, size: tuple[int, int]) -> Iterator[Cover]:
     """Yield the covered pixels of counter-clockwise window triangles (T, 3, 2), one after the other.
 
     Corners and pixel centres are whole numbers of 1/256 pixel, so every edge function is exact in int64. A centre on
     an edge belongs to the triangle that contains the point moved an infinitesimal step right, then up.
     """
-    snapped = np.rint(corners * SUBPIXELS).astype(np.int64)
-    half, limit = SUBPIXELS // 2, np.array(size)
-    firsts = np.clip(-((half - snapped.min(axis=1)) // SUBPIXELS), 0, limit)
-    ends = np.clip((snapped.max(axis=1) - half) // SUBPIXELS + 1, 0, limit)
+    snapped = np.rint(corners * records.SUBPIXELS).astype(np.int64)
+    half, limit = records.SUBPIXELS // 2, np.array(size)
+    firsts = np.clip(-((half - snapped.min(axis=1)) // records.SUBPIXELS), 0, limit)
+    ends = np.clip((snapped.max(axis=1) - half) // records.SUBPIXELS + 1, 0, limit)
     for triangle in np.flatnonzero((firsts < ends).all(axis=1)).tolist():
         (left, bottom), (right, top) = firsts[triangle], ends[triangle]
-        x = SUBPIXELS * np.arange(left, right) + half
-        y = (SUBPIXELS * np.arange(bottom, top) + half)[:, None]
+        x = records.SUBPIXELS * np.arange(left, right) + half
+        y = (records.SUBPIXELS * np.arange(bottom, top) + half)[:, None]
         values = []
         inside = np.ones((top - bottom, right - left), bool)
         for k in range(3):
@@ -107,7 +94,7 @@ def cover_triangles(corners: Floats, size: tuple[int, int]) -> Iterator[Cover]:
         yield Cover(triangle, row + bottom, column + left, chosen / chosen.sum(axis=1, keepdims=True))
 
 
-def _nearest_reference(work: WindowTriangles) -> Reference:
+def _nearest_reference(work: records.WindowTriangles) -> Reference:
     """Return the picture of opaque triangles: at every pixel the nearest, the first of those that tie."""
     width, height = work.size
     nearest = np.full((height, width), np.inf)
@@ -123,7 +110,7 @@ def _nearest_reference(work: WindowTriangles) -> Reference:
     return Reference(np.isfinite(nearest), rounded(colors), len(work.corners), fragment_count)
 
 
-def _blended_reference(work: WindowTriangles) -> Reference:
+def _blended_reference(work: records.WindowTriangles) -> Reference:
     """Return the picture of triangles of one colour each, blended over black in drawing order."""
     width, height = work.size
     colors = np.zeros((height, width, 3))
@@ -138,17 +125,17 @@ def _blended_reference(work: WindowTriangles) -> Reference:
     return Reference(covered, rounded(colors), len(work.corners), fragment_count)
 
 
-def plain_frame(work: ViewedMesh) -> Frame:
+def plain_frame(work: records.ViewedMesh) -> Frame:
     """Draw a mesh with the plain methods."""
     return render(view_of(work, mesh_of(work), lights_of(work)), Settings(**PLAIN, **method_names(work)))  # type: ignore[arg-type]
 
 
-def _mesh_reference(work: ViewedMesh) -> Reference:
+def _mesh_reference(work: records.ViewedMesh) -> Reference:
     """Return the picture of a mesh: its colours are those of the core's plain methods."""
     frame = plain_frame(work)
     colors = rounded(255 * np.clip(frame.color[..., :3].astype(np.float64), 0, 1))
     try:
-        projected = project(work)
+        projected = records.project(work)
     except ValueError:
         covered = np.asarray(frame.primitive >= 0)
         return Reference(covered, colors, len(work.triangles), int(frame.cover_count.sum()))
@@ -160,7 +147,7 @@ def _mesh_reference(work: ViewedMesh) -> Reference:
     return Reference(covered, colors, len(work.triangles), fragment_count)
 
 
-def _rule_reference(work: TypedPicture) -> Reference:
+def _rule_reference(work: records.TypedPicture) -> Reference:
     """Return the picture that the rules draw, which a text has to draw as well."""
     scene, settings = by_rule(work)
     frame = render(scene, settings)
@@ -170,7 +157,7 @@ def _rule_reference(work: TypedPicture) -> Reference:
     )
 
 
-def _line_reference(work: Lines) -> Reference:
+def _line_reference(work: records.Lines) -> Reference:
     """Return the picture of lines by Bresenham's rule: a tie between two pixels is a step."""
     width, height = work.size
     colors = np.zeros((height, width, 3), np.uint8)
@@ -189,7 +176,7 @@ def _line_reference(work: Lines) -> Reference:
     return Reference(covered, colors, len(work.ends), fragment_count)
 
 
-def rounded(colors: NDArray[np.float64]) -> Bytes:
+def rounded(colors: NDArray[np.float64]) -> records.Bytes:
     """Return colours (H, W, 3) from 0 to 255 as bytes, halves up."""
     return np.floor(colors + 0.5).astype(np.uint8)
 
@@ -213,7 +200,7 @@ class Difference:
         return self.covered == self.colored == 0
 
 
-def compare(pixels: Bytes, is_top_down: bool, reference: Reference) -> Difference:
+def compare(pixels: records.Bytes, is_top_down: bool, reference: Reference) -> Difference:
     """Compare pixels (H, W, 3 or 4) with the reference; what is black is not drawn.
 
     Raises ValueError if the picture has another size.

@@ -10,23 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from app.bench.records import (
-    DARKEST,
-    Bytes,
-    ColdStart,
-    Floats,
-    Integers,
-    Lighting,
-    Lines,
-    MeshFile,
-    Prepared,
-    TypedPicture,
-    ViewedMesh,
-    WindowTriangles,
-    Work,
-    large_triangle,
-    random_triangles,
-)
+from app.bench import records
 from app.opengl_check.cases import icosphere
 from core import Camera, ClipScene, DirectionalLight, Material, Mesh, Scene, Texture
 from core.transform.matrices import projection, world_to_camera
@@ -39,7 +23,7 @@ TO_LIGHT = np.array([0.4, 0.8, 0.45]) / np.linalg.norm([0.4, 0.8, 0.45])
 TEXTURE_SIDE = 1024
 
 
-def lit_sphere() -> ViewedMesh:
+def lit_sphere() -> records.ViewedMesh:
     """Return an icosphere of 81,920 triangles with a colour at every vertex, lit at the vertices."""
     positions, normals, triangles = icosphere(6)
     colors = 0.55 + 0.45 * np.sin(5 * positions + np.array([0.0, 2.0, 4.0]))
@@ -50,24 +34,24 @@ def lit_sphere() -> ViewedMesh:
         camera=Camera(eye=np.array([1.1, 0.9, 2.6]), target=np.zeros(3)),
         size=(1024, 1024),
         colors=colors,
-        lighting=Lighting(-TO_LIGHT, 0.15, 0.85, 0.0, 1.0, is_per_pixel=False),
+        lighting=records.Lighting(-TO_LIGHT, 0.15, 0.85, 0.0, 1.0, is_per_pixel=False),
     )
 
 
-def unlike_sphere() -> ViewedMesh:
+def unlike_sphere() -> records.ViewedMesh:
     """Return the sphere of `lit_sphere` with a random colour at every vertex, as scans have them."""
     sphere = lit_sphere()
     colors = np.random.default_rng(47).uniform(0.1, 1.0, sphere.positions.shape)
     return replace(sphere, colors=colors)
 
 
-def sphere_file(extension: str) -> MeshFile:
+def sphere_file(extension: str) -> records.MeshFile:
     """Return an icosphere of 327,680 triangles as a file."""
     positions, _, triangles = icosphere(7)
-    return MeshFile(positions, triangles, extension)
+    return records.MeshFile(positions, triangles, extension)
 
 
-def textured_floor() -> ViewedMesh:
+def textured_floor() -> records.ViewedMesh:
     """Return a floor of two triangles, one with a corner behind the eye, with a texture of 1024 x 1024 texels."""
     positions = np.array([[-8.0, 0.0, 4.0], [8.0, 0.0, 4.0], [8.0, 0.0, -12.0], [-8.0, 0.0, -12.0]])
     return viewed(
@@ -86,7 +70,7 @@ def textured_floor() -> ViewedMesh:
     )
 
 
-def textured_knot() -> ViewedMesh:
+def textured_knot() -> records.ViewedMesh:
     """Return a knot of 200,000 triangles with a texture, lit at every pixel, 1920 x 1080."""
     mesh = shapes.knot(columns=2500, rows=40)
     assert mesh.normals is not None
@@ -99,11 +83,11 @@ def textured_knot() -> ViewedMesh:
         size=(1920, 1080),
         uvs=mesh.uvs * np.array([12.0, 1.0]),
         texture=patterned_texture(),
-        lighting=Lighting(-TO_LIGHT, 0.15, 0.7, 0.25, 32.0, is_per_pixel=True),
+        lighting=records.Lighting(-TO_LIGHT, 0.15, 0.7, 0.25, 32.0, is_per_pixel=True),
     )
 
 
-def patterned_texture() -> Bytes:
+def patterned_texture() -> records.Bytes:
     """Return (1024, 1024, 3) uint8: squares in red, a ramp in green, noise in blue."""
     side = TEXTURE_SIDE
     row, column = np.mgrid[0:side, 0:side]
@@ -111,23 +95,23 @@ def patterned_texture() -> Bytes:
     texture[..., 0] = 180 * ((column >> 5 ^ row >> 5) & 1) + (column >> 3 & 63)
     texture[..., 1] = row >> 2
     texture[..., 2] = np.random.default_rng(5).integers(0, 256, (side, side))
-    return np.maximum(texture, DARKEST)
+    return np.maximum(texture, records.DARKEST)
 
 
 def viewed(
-    positions: Floats,
-    triangles: Integers,
-    normals: Floats,
+    positions: records.Floats,
+    triangles: records.Integers,
+    normals: records.Floats,
     *,
     camera: Camera,
     size: tuple[int, int],
-    colors: Floats | None = None,
-    uvs: Floats | None = None,
-    texture: Bytes | None = None,
-    lighting: Lighting | None = None,
-) -> ViewedMesh:
+    colors: records.Floats | None = None,
+    uvs: records.Floats | None = None,
+    texture: records.Bytes | None = None,
+    lighting: records.Lighting | None = None,
+) -> records.ViewedMesh:
     """Put a mesh before a camera: all that a library may ask for, the matrices too."""
-    return ViewedMesh(
+    return records.ViewedMesh(
         positions,
         triangles,
         normals,
@@ -153,7 +137,7 @@ def viewed(
 BLACK = np.array([0.0, 0.0, 0.0, 1.0])
 
 
-def clip_scene(work: WindowTriangles) -> ClipScene:
+def clip_scene(work: records.WindowTriangles) -> ClipScene:
     """Return window triangles as a scene in clip space; all w are 1."""
     clip = np.ones((len(work.corners), 3, 4))
     clip[..., :2] = work.corners / np.array(work.size) * 2 - 1
@@ -161,7 +145,7 @@ def clip_scene(work: WindowTriangles) -> ClipScene:
     return ClipScene(clip, work.colors / 255, work.size, background=BLACK)
 
 
-def mesh_of(work: ViewedMesh) -> Mesh:
+def mesh_of(work: records.ViewedMesh) -> Mesh:
     """Return the mesh; its colours and texels are taken as linear."""
     light = work.lighting
     count = len(work.positions)
@@ -178,12 +162,12 @@ def mesh_of(work: ViewedMesh) -> Mesh:
     )
 
 
-def lights_of(work: ViewedMesh) -> tuple[DirectionalLight, ...]:
+def lights_of(work: records.ViewedMesh) -> tuple[DirectionalLight, ...]:
     """Return the lights; like the mesh they are the same in every picture."""
     return () if work.lighting is None else (DirectionalLight(work.lighting.direction),)
 
 
-def view_of(work: ViewedMesh, mesh: Mesh, lights: tuple[DirectionalLight, ...]) -> Scene:
+def view_of(work: records.ViewedMesh, mesh: Mesh, lights: tuple[DirectionalLight, ...]) -> Scene:
     """Return the mesh before its camera."""
     return Scene(
         (mesh,),
@@ -196,9 +180,9 @@ def view_of(work: ViewedMesh, mesh: Mesh, lights: tuple[DirectionalLight, ...]) 
     )
 
 
-def method_names(work: WindowTriangles | ViewedMesh) -> dict[str, str]:
+def method_names(work: records.WindowTriangles | records.ViewedMesh) -> dict[str, str]:
     """Return the settings that say what the picture is, whatever draws it."""
-    if isinstance(work, ViewedMesh):
+    if isinstance(work, records.ViewedMesh):
         if work.lighting is None:
             return {"shading": "unlit", "clipping": "sutherland-hodgman"}
         return {"shading": "phong" if work.lighting.is_per_pixel else "gouraud"}
@@ -216,40 +200,44 @@ class Workload:
 
     name: str
     title: str
-    make: Callable[[], Work]
+    make: Callable[[], records.Work]
 
 
-def small_triangles() -> WindowTriangles:
+def small_triangles() -> records.WindowTriangles:
     """Return workload B: 2,000 triangles of 100 pixels each in 512 x 512."""
-    return random_triangles(42, 2000, (512, 512), 100.0)
+    return records.random_triangles(42, 2000, (512, 512), 100.0)
 
 
-def random_lines() -> Lines:
+def random_lines() -> records.Lines:
     """Return 1,000 lines between random pixels of 1024 x 1024."""
     rng = np.random.default_rng(46)
     ends = rng.integers(0, 1024, (1000, 4))
-    return Lines(ends, rng.integers(DARKEST, 256, (1000, 3)).astype(np.uint8), (1024, 1024))
+    return records.Lines(ends, rng.integers(records.DARKEST, 256, (1000, 3)).astype(np.uint8), (1024, 1024))
 
 
 WORKLOADS = (
-    Workload("A1", "one large triangle, flat", lambda: large_triangle(FLAT)),
-    Workload("A2", "one large triangle, depth and Gouraud", lambda: large_triangle(RAINBOW)),
+    Workload("A1", "one large triangle, flat", lambda: records.large_triangle(FLAT)),
+    Workload("A2", "one large triangle, depth and Gouraud", lambda: records.large_triangle(RAINBOW)),
     Workload("B", "2,000 triangles of 100 pixels", small_triangles),
-    Workload("C", "20,000 triangles of 16 pixels", lambda: random_triangles(43, 20000, (512, 512), 16.0)),
+    Workload(
+        "C", "20,000 triangles of 16 pixels", lambda: records.random_triangles(43, 20000, (512, 512), 16.0)
+    ),
     Workload("D", "81,920-triangle sphere, whole pipeline", lit_sphere),
     Workload("E", "textured floor, clipped, bilinear", textured_floor),
     Workload("F", "1,000 lines", random_lines),
     Workload("G", "200,000-triangle knot, texture and Phong", textured_knot),
-    Workload("H", "10,000 blended triangles", lambda: random_triangles(44, 10000, (512, 512), 100.0, True)),
-    Workload("I", "first picture from a cold start", lambda: ColdStart(small_triangles())),
+    Workload(
+        "H", "10,000 blended triangles", lambda: records.random_triangles(44, 10000, (512, 512), 100.0, True)
+    ),
+    Workload("I", "first picture from a cold start", lambda: records.ColdStart(small_triangles())),
     Workload("J", "81,920-triangle sphere, unlike vertex colours", unlike_sphere),
     Workload("K1", "opening an OBJ file", lambda: sphere_file(".obj")),
     Workload("K2", "opening a binary PLY file", lambda: sphere_file(".ply")),
     Workload("K3", "opening a binary STL file", lambda: sphere_file(".stl")),
-    Workload("L1", "edited inside test, small raster", lambda: TypedPicture("fill", (64, 48))),
-    Workload("L2", "edited inside test", lambda: TypedPicture("fill", (512, 512))),
-    Workload("L3", "30 lines by an edited listing", lambda: TypedPicture("line", (512, 512))),
-    Workload("L4", "Phong as shaders in GLSL", lambda: TypedPicture("shaders", (512, 512))),
+    Workload("L1", "edited inside test, small raster", lambda: records.TypedPicture("fill", (64, 48))),
+    Workload("L2", "edited inside test", lambda: records.TypedPicture("fill", (512, 512))),
+    Workload("L3", "30 lines by an edited listing", lambda: records.TypedPicture("line", (512, 512))),
+    Workload("L4", "Phong as shaders in GLSL", lambda: records.TypedPicture("shaders", (512, 512))),
 )
 """All workloads, in the order in which they are run."""
 
@@ -258,24 +246,24 @@ WORKLOADS = (
 
 
 def prepare_reading(
-    work: MeshFile,
+    work: records.MeshFile,
     stack: ExitStack,
     read: Callable[[Path], Any],
-    arrays_of: Callable[[Any], tuple[Floats, Integers]],
-) -> Prepared:
+    arrays_of: Callable[[Any], tuple[records.Floats, records.Integers]],
+) -> records.Prepared:
     """Write the file, which is read anew in every run; ``arrays_of`` gives positions and triangles of what was read."""
     folder = Path(stack.enter_context(TemporaryDirectory(prefix="rasterscope-bench-")))
     path = folder / f"sphere{work.extension}"
     path.write_bytes(file_bytes(work))
-    return Prepared(lambda: read(path), picture=lambda found: corner_picture(*arrays_of(found)))
+    return records.Prepared(lambda: read(path), picture=lambda found: corner_picture(*arrays_of(found)))
 
 
-def corner_picture(positions: Floats, triangles: Integers) -> Bytes:
+def corner_picture(positions: records.Floats, triangles: records.Integers) -> records.Bytes:
     """Return the corners (T, 3) as pixels whose colours are their places, none of them black."""
     return np.rint(100 * positions + 128).astype(np.uint8).take(triangles, axis=0)
 
 
-def file_bytes(work: MeshFile) -> bytes:
+def file_bytes(work: records.MeshFile) -> bytes:
     """Return the content of the file."""
     singles, indices = work.positions.astype("<f4"), work.triangles.astype("<i4")
     if work.extension == ".obj":

@@ -3,15 +3,7 @@
 import argparse
 from pathlib import Path
 
-from app.cli.arguments import (
-    add_file,
-    add_settings,
-    add_size,
-    chosen_settings,
-    open_file,
-    progress_line,
-    sized,
-)
+from app.cli import arguments
 from app.files.drawn_pictures import read_drawn
 from lessons.diagnosis import (
     RIGHT,
@@ -42,24 +34,24 @@ examples:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the command takes."""
-    add_file(parser)
+    arguments.add_file(parser)
     parser.add_argument(
         "picture",
         metavar="PICTURE",
         help="what another program drew of it: .png, .ppm, .bmp, .tga, .jpg, .npz or .csv",
     )
-    add_size(parser, "pixels")
-    add_settings(parser)
+    arguments.add_size(parser, "pixels")
+    arguments.add_settings(parser)
 
 
 def run(options: argparse.Namespace) -> int:
     """Compare and report."""
-    opened = open_file(options)
-    settings = chosen_settings(opened.document.settings, options.set)
-    scene = sized(opened.document.scene, options)
+    opened = arguments.open_file(options)
+    settings = arguments.chosen_settings(opened.document.settings, options.set)
+    scene = arguments.sized(opened.document.scene, options)
     check_size(scene.size, scene.size)
     drawn = read_drawn(Path(options.picture), scene.size)
-    with progress_line() as progress:
+    with arguments.progress_line() as progress:
         diagnosis = diagnose(scene, settings, drawn, progress)
     print("\n".join(report(diagnosis)))
     print(f"scene: {scene_text(opened.document.title, scene)}. {compared_text(diagnosis.drawn)}")

@@ -7,16 +7,7 @@ from math import isfinite
 
 import numpy as np
 
-from app.cli.arguments import (
-    add_edits,
-    add_file,
-    add_settings,
-    add_size,
-    chosen_settings,
-    open_file,
-    overflow_reported,
-    sized,
-)
+from app.cli import arguments
 from app.files.file_access import check_writable, read_input, whole_file
 from app.session.memory import check_free
 from app.usage import UsageError
@@ -138,11 +129,11 @@ examples:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the command takes."""
-    add_file(parser)
+    arguments.add_file(parser)
     parser.add_argument("-o", "--output", metavar="out.png", help="the picture")
-    add_size(parser)
-    add_settings(parser)
-    add_edits(parser)
+    arguments.add_size(parser)
+    arguments.add_settings(parser)
+    arguments.add_edits(parser)
     add_shaders(parser)
     parser.add_argument("--buffers", metavar="out.npz", help="color, depth and primitive as arrays")
 
@@ -157,12 +148,12 @@ def run(options: argparse.Namespace) -> int:
     for path in filter(None, (options.output, options.buffers)):
         check_writable(path)
 
-    opened = open_file(options)
-    settings = chosen_settings(opened.document.settings, options.set, options.edit)
-    scene = with_shaders(sized(opened.document.scene, options), options)
+    opened = arguments.open_file(options)
+    settings = arguments.chosen_settings(opened.document.settings, options.set, options.edit)
+    scene = with_shaders(arguments.sized(opened.document.scene, options), options)
     blend = resolve(settings).blend_name
     check_memory(scene.size, settings)
-    with overflow_reported():
+    with arguments.overflow_reported():
         frame = render(scene, settings)
 
     if options.output is not None:

@@ -4,14 +4,7 @@ import argparse
 import os
 import sys
 
-from app.cli.arguments import (
-    add_edits,
-    add_file,
-    add_settings,
-    chosen_settings,
-    outside_hinted,
-    size_from_text,
-)
+from app.cli import arguments
 from app.cli.commands import MOST_ROUNDS, load_qt, whole_number
 from app.files.file_access import VIEW_ENDINGS, check_writable
 from app.usage import UsageError
@@ -51,7 +44,7 @@ SMALLEST = (800, 500)
 
 def window_size_from_text(text: str) -> tuple[int, int]:
     """Return a size that the window can have."""
-    size = size_from_text(text)
+    size = arguments.size_from_text(text)
     if size[0] < SMALLEST[0] or size[1] < SMALLEST[1]:
         raise argparse.ArgumentTypeError(f"must be at least {SMALLEST[0]}x{SMALLEST[1]}, got {text}")
     return size
@@ -76,7 +69,7 @@ def add_window_look(parser: argparse.ArgumentParser) -> None:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the command takes."""
-    add_file(parser)
+    arguments.add_file(parser)
     parser.add_argument("-o", "--output", metavar="out.png", required=True, help="PNG, SVG or PDF file")
     add_window_look(parser)
     parser.add_argument("--stage", choices=STAGES, metavar="NAME", help=f"stage to show: {', '.join(STAGES)}")
@@ -115,8 +108,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="METHOD",
         help="open the pictures of a method, or the first cell where it fails; or check a mistake's answer",
     )
-    add_settings(parser)
-    add_edits(parser)
+    arguments.add_settings(parser)
+    arguments.add_edits(parser)
 
 
 def check_page(options: argparse.Namespace) -> None:
@@ -160,7 +153,7 @@ def run(options: argparse.Namespace) -> int:
             options.rounds,
             bool(options.grow),
         )
-    with outside_hinted():
+    with arguments.outside_hinted():
         grab_window(
             options.file,
             options.output,
@@ -169,7 +162,7 @@ def run(options: argparse.Namespace) -> int:
             options.stage,
             options.step,
             view,
-            lambda settings: chosen_settings(settings, options.set, options.edit),
+            lambda settings: arguments.chosen_settings(settings, options.set, options.edit),
             content,
             options.allow_outside,
         )

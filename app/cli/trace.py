@@ -10,17 +10,7 @@ from time import monotonic
 
 import numpy as np
 
-from app.cli.arguments import (
-    add_edits,
-    add_file,
-    add_settings,
-    chosen_settings,
-    open_file,
-    overflow_reported,
-    progress_line,
-    size_from_text,
-    sized,
-)
+from app.cli import arguments
 from app.cli.commands import whole_number
 from app.cli.render import add_shaders, with_shaders
 from app.cli.trace_tables import arrays, table_parts
@@ -74,7 +64,7 @@ def region_from_text(text: str) -> tuple[int, int, int, int]:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the command takes."""
-    add_file(parser)
+    arguments.add_file(parser)
     parser.add_argument(
         "--triangle", metavar="N", type=whole_number(0), help="number in the scene, from 0; default: all"
     )
@@ -84,7 +74,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("-o", "--output", metavar="PATH", help="file; default: standard output (not npz)")
     parser.add_argument(
-        "--size", metavar="WxH", type=size_from_text, help="trace the whole view at this size, same camera"
+        "--size",
+        metavar="WxH",
+        type=arguments.size_from_text,
+        help="trace the whole view at this size, same camera",
     )
     parser.add_argument(
         "--region",
@@ -102,8 +95,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         choices=("one", "together"),
         help="order of a shader's steps: one vertex or fragment after another, or those of a triangle together",
     )
-    add_settings(parser)
-    add_edits(parser)
+    arguments.add_settings(parser)
+    arguments.add_edits(parser)
     add_shaders(parser)
 
 
@@ -113,8 +106,8 @@ def run(options: argparse.Namespace) -> int:
         raise UsageError("argument --format: npz needs a file, -o PATH")
     if options.output is not None:
         check_writable(options.output)
-    opened = open_file(options)
-    with overflow_reported():
+    opened = arguments.open_file(options)
+    with arguments.overflow_reported():
         traced = make_trace(opened, options)
         check_count(traced)
         if STAGES.index(options.stage) >= STAGES.index("raster"):
@@ -148,10 +141,10 @@ def make_trace(opened: Opened, options: argparse.Namespace) -> Trace:
         raise UsageError(
             f"argument --triangle: must be 0 to {document.triangle_count - 1} in {options.file}, got {triangle}"
         )
-    settings = chosen_settings(document.settings, options.set, options.edit)
+    settings = arguments.chosen_settings(document.settings, options.set, options.edit)
     before, lanes = options.before or document.before, options.lanes or document.lanes
     if options.size is not None or options.region is not None:
-        scene = sized(document.scene, options)
+        scene = arguments.sized(document.scene, options)
         check_region(options.region, scene.size)
         return trace(scene, settings, triangle, options.region, before, lanes=lanes)
     document = replace(document, settings=settings, before=before, lanes=lanes)
@@ -225,7 +218,7 @@ def write_parts(parts: Iterable[tuple[int, str]], row_count: int, path: str | No
     """Write pieces of text, each with the rows done, into a file or on the standard output, and show progress."""
     is_seen = path is None and sys.stdout is not None and sys.stdout.isatty()
     with ExitStack() as stack:
-        report = None if is_seen else stack.enter_context(progress_line())
+        report = None if is_seen else stack.enter_context(arguments.progress_line())
         file = None if path is None else stack.enter_context(whole_file(path))
         reported = monotonic()
         for rows, text in parts:

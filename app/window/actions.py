@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from app.pages.step.kept_look import BOOKMARKS, copy_state
 from app.pages.step.main_area import ZOOM, choose_vertex, move_view, nudge_vertex, zoom
 from app.pages.step.panes import PANES
+from app.window import keys
 from app.window.action import (
     Action,
     Row,
@@ -26,24 +27,6 @@ from app.window.action import (
     way_row,
     whole_window,
 )
-from app.window.keys import (
-    ANSWERING,
-    CHARTS,
-    EDITING,
-    EXPERIMENTS,
-    FILES,
-    HELP,
-    LESSONS,
-    MAPS,
-    MEASURING,
-    PAGES,
-    PLANNING,
-    POINTING,
-    RUNNING,
-    STAGE_GROUP,
-    STEPPING,
-    VIEWING,
-)
 from core.stages.declared import STAGES
 
 if TYPE_CHECKING:
@@ -59,7 +42,7 @@ WAYS = (
 )
 """Four ways, in words, and in columns and rows (y up)."""
 ACTIONS: tuple[Action, ...] = (
-    *rows_of("step", STEPPING, "Step", lambda w: w.stepping)(
+    *rows_of("step", keys.STEPPING, "Step", lambda w: w.stepping)(
         Row("step_forward", "Right", "Step forward", lambda p: p.step(1)),
         Row("step_back", "Left", "Step back", lambda p: p.step(-1)),
         Row("larger_forward", "Shift+Right F10", "Larger step forward (over)", lambda p: p.step_larger(1)),
@@ -70,15 +53,15 @@ ACTIONS: tuple[Action, ...] = (
         Row("go_last", "End", "Go to the end of the stage", lambda p: p.go_to_end(1)),
         Row("toggle_play", "Space", "Play or pause", lambda p: p.toggle_play()),
     ),
-    *rows_of("step", STEPPING, "", lambda w: w.page.timeline)(
+    *rows_of("step", keys.STEPPING, "", lambda w: w.page.timeline)(
         Row("faster", "+ =", "Play faster", lambda p: p.change_speed(1)),
         Row("slower", "-", "Play slower", lambda p: p.change_speed(-1)),
     ),
-    *rows_of("step", STEPPING, "Step", lambda w: w.stepping)(
+    *rows_of("step", keys.STEPPING, "Step", lambda w: w.stepping)(
         Row("visited_back", "Ctrl+[", "Back to the step before the jump", lambda p: p.go_back()),
         Row("visited_forward", "Ctrl+]", "Forward again", lambda p: p.go_forward(), ends_group=True),
     ),
-    *rows_of("step", RUNNING, "Step", lambda w: w.stepping)(
+    *rows_of("step", keys.RUNNING, "Step", lambda w: w.stepping)(
         Row("next_at_pin", "J", "Next step at the pinned pixel", lambda p: p.run_to_pin(1)),
         Row("previous_at_pin", "K", "Previous step at the pinned pixel", lambda p: p.run_to_pin(-1)),
         Row("next_event", "N", "Next event of the chosen kind", lambda p: p.run_to_event(1)),
@@ -92,22 +75,22 @@ ACTIONS: tuple[Action, ...] = (
             lambda p: p.toggle_pixel_breakpoint(),
         ),
     ),
-    *rows_of("step", RUNNING, "Step", lambda w: w.overlays)(
+    *rows_of("step", keys.RUNNING, "Step", lambda w: w.overlays)(
         Row("edit_condition", "Ctrl+F9", "Breakpoint on a condition…", lambda p: p.ask_condition()),
     ),
-    *rows_of("step", RUNNING, "Step", lambda w: w.stepping)(
+    *rows_of("step", keys.RUNNING, "Step", lambda w: w.stepping)(
         Row("toggle_bookmark", "Ctrl+B", "Bookmark this step", lambda p: p.bookmarks.toggle()),
     ),
-    *rows_of("step", RUNNING, "Step", lambda w: w.overlays)(
+    *rows_of("step", keys.RUNNING, "Step", lambda w: w.overlays)(
         Row("note_bookmark", "Ctrl+Shift+B", "Bookmark with a note…", lambda p: p.ask_note()),
     ),
-    *rows_of("step", RUNNING, "", whole_window)(*(bookmark_row(k) for k in range(BOOKMARKS))),
-    *rows_of("step", STAGE_GROUP, "Stage", whole_window)(
+    *rows_of("step", keys.RUNNING, "", whole_window)(*(bookmark_row(k) for k in range(BOOKMARKS))),
+    *rows_of("step", keys.STAGE_GROUP, "Stage", whole_window)(
         *(stage_row(k) for k in range(len(STAGES))),
         Row("next_stage", "Ctrl+PgDown", "Next stage", lambda w: w.stepping.go_to_stage(1)),
         Row("previous_stage", "Ctrl+PgUp", "Previous stage", lambda w: w.stepping.go_to_stage(-1)),
     ),
-    *rows_of("step", LESSONS, "Lesson", lambda w: w.page.lessons)(
+    *rows_of("step", keys.LESSONS, "Lesson", lambda w: w.page.lessons)(
         Row("lesson_next", "PgDown", "Next step of the lesson", lambda p: p.next()),
         Row("lesson_back", "PgUp", "Previous step of the lesson", lambda p: p.back()),
         Row("lesson_return", "Ctrl+Home", "Return to the lesson’s step", lambda p: p.return_here()),
@@ -116,34 +99,34 @@ ACTIONS: tuple[Action, ...] = (
         Row("lesson_anew", "", "Begin the lesson anew", lambda p: p.begin_anew()),
         Row("lesson_close", "", "Close the lesson", lambda p: p.close()),
     ),
-    *rows_of("step", LESSONS, "Lesson", lambda w: w.page)(
+    *rows_of("step", keys.LESSONS, "Lesson", lambda w: w.page)(
         Row("lesson_copy", "", "Copy this state for a lesson", copy_state),
     ),
-    *rows_of("step", POINTING, "", lambda w: w.stepping)(
+    *rows_of("step", keys.POINTING, "", lambda w: w.stepping)(
         Row("pin_left", "Alt+Left", "Move the pin left", lambda p: p.move_pin(-1, 0)),
         Row("pin_right", "Alt+Right", "Move the pin right", lambda p: p.move_pin(1, 0)),
         Row("pin_up", "Alt+Up", "Move the pin up", lambda p: p.move_pin(0, 1)),
         Row("pin_down", "Alt+Down", "Move the pin down", lambda p: p.move_pin(0, -1)),
     ),
-    *rows_of("step", POINTING, "Step", lambda w: w.page)(
+    *rows_of("step", keys.POINTING, "Step", lambda w: w.page)(
         Row("value_origin_pixel", "Y", "Where does the pinned value come from?", lambda p: p.go_to_writer())
     ),
-    *rows_of("step", POINTING, "View", lambda w: w.overlays)(
+    *rows_of("step", keys.POINTING, "View", lambda w: w.overlays)(
         Row("go_to_pixel", "Ctrl+G", "Go to pixel…", lambda p: p.ask_pixel())
     ),
-    *rows_of("step", VIEWING, "View", whole_window)(
+    *rows_of("step", keys.VIEWING, "View", whole_window)(
         Row(
             "zoom_in", "Alt++ Alt+=", "Magnify the view, or the timeline in it", lambda w: zoom(w.page, ZOOM)
         ),
         Row("zoom_out", "Alt+-", "Magnify less", lambda w: zoom(w.page, 1 / ZOOM)),
     ),
-    *rows_of("step", VIEWING, "", whole_window)(
+    *rows_of("step", keys.VIEWING, "", whole_window)(
         *(way_row("view", "Ctrl", "Look further", move_view, *way) for way in WAYS)
     ),
-    *rows_of("", VIEWING, "", whole_window)(
+    *rows_of("", keys.VIEWING, "", whole_window)(
         Row("unpin", "Escape", "Stop work, close the top pane or message, or remove the pin", dismiss)
     ),
-    *rows_of("step", VIEWING, "View", lambda w: w.page)(
+    *rows_of("step", keys.VIEWING, "View", lambda w: w.page)(
         Row("fit_view", "W", "Show all stepped pixels", lambda p: p.fit()),
         Row("next_view", "V", "Next main view", lambda p: p.main_area.next_view()),
         Row(
@@ -155,17 +138,17 @@ ACTIONS: tuple[Action, ...] = (
             ends_group=True,
         ),
     ),
-    *rows_of("step", VIEWING, "", lambda w: w.page)(
+    *rows_of("step", keys.VIEWING, "", lambda w: w.page)(
         Row("flip", "X", "Swap the pictures of A and B while held", lambda p: p.flip())
     ),
-    *rows_of("step", VIEWING, "View", lambda w: w.page)(
+    *rows_of("step", keys.VIEWING, "View", lambda w: w.page)(
         Row("edit_line", "F2", "Edit the line of the listing", lambda p: p.editing.edit_chosen_line()),
         Row(
             "divergence", "D", "First divergence of A and B", lambda p: p.comparing.meeting.go_to_divergence()
         ),
     ),
-    *rows_of("step", VIEWING, "View/Panes", whole_window)(*map(pane_row, PANES)),
-    *rows_of("step", VIEWING, "View", lambda w: w.page)(
+    *rows_of("step", keys.VIEWING, "View/Panes", whole_window)(*map(pane_row, PANES)),
+    *rows_of("step", keys.VIEWING, "View", lambda w: w.page)(
         Row(
             "predict",
             "P",
@@ -182,28 +165,28 @@ ACTIONS: tuple[Action, ...] = (
             ends_group=True,
         ),
     ),
-    *rows_of("", PAGES, "Help", lambda w: w.pages)(
+    *rows_of("", keys.PAGES, "Help", lambda w: w.pages)(
         Row("page_start", "Alt+0", "Start page", lambda p: p.show_page("start"))
     ),
-    *rows_of("start", STEPPING, "", lambda w: w.start)(
+    *rows_of("start", keys.STEPPING, "", lambda w: w.start)(
         Row("begin_stepping", "Right", "Step what is open", lambda p: p.step_on())
     ),
-    *rows_of("", PAGES, "View/Pages", whole_window)(
+    *rows_of("", keys.PAGES, "View/Pages", whole_window)(
         page_row("step", "Alt+1", "Step page"),
         page_row("compare", "Alt+2", "Compare page"),
         page_row("stability", "Alt+3", "Stability page"),
         page_row("plan", "Alt+4", "Plan page"),
         page_row("exercises", "Alt+5", "Exercises page"),
     ),
-    *rows_of("", PAGES, "View/Panes", lambda w: w.focus_walk)(
+    *rows_of("", keys.PAGES, "View/Panes", lambda w: w.focus_walk)(
         Row("next_pane", "F6", "Next pane", lambda p: p.go_pane(1)),
         Row("previous_pane", "Shift+F6", "Previous pane", lambda p: p.go_pane(-1)),
     ),
-    *rows_of("", PAGES, "", lambda w: w.pages)(
+    *rows_of("", keys.PAGES, "", lambda w: w.pages)(
         Row("next_page", "Ctrl+Tab", "Next page", lambda p: p.show_next(1)),
         Row("previous_page", "Ctrl+Shift+Tab", "Previous page", lambda p: p.show_next(-1)),
     ),
-    *rows_of("", VIEWING, "View", whole_window)(
+    *rows_of("", keys.VIEWING, "View", whole_window)(
         Row("toggle_theme", "Ctrl+T", "Light or dark", lambda w: w.appearance.toggle_theme()),
         Row("text_larger", "Ctrl++ Ctrl+=", "Larger text", lambda w: w.appearance.change_text_size(1)),
         Row("text_smaller", "Ctrl+-", "Smaller text", lambda w: w.appearance.change_text_size(-1)),
@@ -215,7 +198,7 @@ ACTIONS: tuple[Action, ...] = (
             is_on=lambda w: w.presenter.is_presenting,
         ),
     ),
-    *rows_of("", HELP, "Help", whole_window)(
+    *rows_of("", keys.HELP, "Help", whole_window)(
         Row("help", "F1", "Help on what is pointed at", lambda w: w.help.toggle()),
         Row("help_guide", "", "Five-minute guide", lambda w: w.help.show_page("guide")),
         Row("help_editing", "", "Change a line", lambda w: w.help.show_page("editing")),
@@ -225,29 +208,29 @@ ACTIONS: tuple[Action, ...] = (
         Row("show_keys", "?", "All keys", lambda w: w.overlays.toggle_keys()),
         Row("change_keys", "", "Change keys…", lambda w: w.overlays.change_keys()),
     ),
-    *rows_of("step", EDITING, "Raster", whole_window)(
+    *rows_of("step", keys.EDITING, "Raster", whole_window)(
         Row("next_triangle", "Alt+J", "Next triangle", lambda w: w.edits.step_triangle(1)),
         Row("previous_triangle", "Alt+K", "Previous triangle", lambda w: w.edits.step_triangle(-1)),
         Row("go_to_triangle", "Ctrl+Shift+G", "Go to triangle…", lambda w: w.overlays.ask_triangle()),
     ),
-    *rows_of("step", EDITING, "Raster", lambda w: w.page)(
+    *rows_of("step", keys.EDITING, "Raster", lambda w: w.page)(
         Row("open_pass", "Ctrl+L", "Open the pass that is drawn first", lambda p: p.open_pass()),
     ),
-    *rows_of("step", EDITING, "Edit", whole_window)(
+    *rows_of("step", keys.EDITING, "Edit", whole_window)(
         Row("next_vertex", "Alt+N", "Choose the next vertex to move", lambda w: choose_vertex(w.page))
     ),
-    *rows_of("step", EDITING, "", whole_window)(
+    *rows_of("step", keys.EDITING, "", whole_window)(
         *(way_row("vertex", "Ctrl+Shift", "Move the vertex", nudge_vertex, *way) for way in WAYS)
     ),
-    *rows_of("", EDITING, "Edit", whole_window)(
+    *rows_of("", keys.EDITING, "Edit", whole_window)(
         Row("undo", "Ctrl+Z", "Undo", undo),
         Row("redo", "Ctrl+Shift+Z Ctrl+Y", "Redo", redo, ends_group=True),
     ),
-    *rows_of("step", EDITING, "Raster", whole_window)(
+    *rows_of("step", keys.EDITING, "Raster", whole_window)(
         Row("fit_region", "F", "Go into the triangle", fit_to_triangle),
         Row("whole_picture", "Shift+F", "Back to the whole picture", show_whole_picture),
     ),
-    *rows_of("step", EDITING, "Edit", lambda w: w.edits)(
+    *rows_of("step", keys.EDITING, "Edit", lambda w: w.edits)(
         Row(
             "toggle_shared",
             "Ctrl+J",
@@ -256,7 +239,7 @@ ACTIONS: tuple[Action, ...] = (
             is_on=has_shared_vertices,
         )
     ),
-    *rows_of("step", EDITING, "Raster", lambda w: w.edits)(
+    *rows_of("step", keys.EDITING, "Raster", lambda w: w.edits)(
         Row("focus_all", "A", "Step all triangles", lambda p: p.focus_all()),
         Row(
             "toggle_cleared",
@@ -266,7 +249,7 @@ ACTIONS: tuple[Action, ...] = (
             is_on=lambda w: w.session.document.before == "cleared",
         ),
     ),
-    *rows_of("compare", MEASURING, "Compare", lambda w: w.compare)(
+    *rows_of("compare", keys.MEASURING, "Compare", lambda w: w.compare)(
         Row("measure", "F5", "Measure all methods of the family", lambda p: p.start()),
         Row(
             "measure_scene",
@@ -280,7 +263,7 @@ ACTIONS: tuple[Action, ...] = (
             "previous_family", "Ctrl+PgUp", "Previous family", lambda p: p.show_neighbour(-1), ends_group=True
         ),
     ),
-    *rows_of("compare", CHARTS, "Compare", lambda w: w.compare)(
+    *rows_of("compare", keys.CHARTS, "Compare", lambda w: w.compare)(
         Row("next_error", "E", "Next error on the axis", lambda p: p.show_next_measure()),
         Row("next_cost", "X", "Next cost on the axis: time or a count of work", lambda p: p.show_next_cost()),
         Row("show_numbers", "T", "Charts or numbers", lambda p: p.toggle_numbers()),
@@ -294,7 +277,7 @@ ACTIONS: tuple[Action, ...] = (
         ),
         Row("copy_pictures", "", "Copy the pictures", lambda p: p.opened.copy()),
     ),
-    *rows_of("stability", EXPERIMENTS, "Stability", lambda w: w.stability)(
+    *rows_of("stability", keys.EXPERIMENTS, "Stability", lambda w: w.stability)(
         Row("run_experiment", "F5", "Run every method of the experiment", lambda p: p.start()),
         Row("cancel_experiment", "Shift+F5", "Cancel running", lambda p: p.cancel()),
         Row("next_experiment", "Ctrl+PgDown", "Next experiment", lambda p: p.show_neighbour(1)),
@@ -306,12 +289,12 @@ ACTIONS: tuple[Action, ...] = (
             ends_group=True,
         ),
     ),
-    *rows_of("stability", MAPS, "Stability", lambda w: w.stability)(
+    *rows_of("stability", keys.MAPS, "Stability", lambda w: w.stability)(
         Row("step_cell", "Ctrl+Return", "Open the chosen cell in the stepper", lambda p: p.opened.step()),
         Row("shrink_cell", "S", "Shrink the chosen cell", lambda p: p.opened.shrink()),
         Row("save_case", "", "Save the smallest case…", lambda p: p.ask_save_case()),
     ),
-    *rows_of("plan", PLANNING, "Plan", lambda w: w.plan)(
+    *rows_of("plan", keys.PLANNING, "Plan", lambda w: w.plan)(
         Row("analyse", "F5", "Analyse the scene", lambda p: p.start()),
         Row("cancel_analysis", "Shift+F5", "Cancel the analysis", lambda p: p.cancel()),
         Row("apply_plan", "Ctrl+Return", "Apply these settings", lambda p: p.apply()),
@@ -319,7 +302,7 @@ ACTIONS: tuple[Action, ...] = (
         Row("plan_chart", "Ctrl+M", "Show the plan on the scene’s chart", lambda p: p.show_on_chart()),
         Row("plan_findings", "I", "Show or hide the findings", lambda p: p.findings.toggle_findings()),
     ),
-    *rows_of("exercises", ANSWERING, "Exercises", lambda w: w.exercises)(
+    *rows_of("exercises", keys.ANSWERING, "Exercises", lambda w: w.exercises)(
         Row("check_answer", "Ctrl+Return F5", "Check the answer", lambda p: p.questions.check()),
         Row("next_hint", "Ctrl+H", "Show the next hint", lambda p: p.questions.show_hint()),
         Row("new_variant", "Ctrl+N", "New variant of this question", lambda p: p.questions.ask_variant()),
@@ -344,7 +327,7 @@ ACTIONS: tuple[Action, ...] = (
         Row("next_exercise", "Ctrl+PgDown", "Next exercise", lambda p: p.exercises.open_neighbour(1)),
         Row("previous_exercise", "Ctrl+PgUp", "Previous exercise", lambda p: p.exercises.open_neighbour(-1)),
     ),
-    *rows_of("", FILES, "File", whole_window)(
+    *rows_of("", keys.FILES, "File", whole_window)(
         Row("open_file", "Ctrl+O", "Open mesh or state…", lambda w: w.files.ask_file()),
         Row("choose_scene", "Ctrl+Shift+O", "Open a scene or state from a list…", choose_scene),
         Row(
@@ -366,7 +349,7 @@ ACTIONS: tuple[Action, ...] = (
             lambda w: w.exports.print_view(w.session.document.title),
         ),
     ),
-    *rows_of("step", FILES, "File", whole_window)(
+    *rows_of("step", keys.FILES, "File", whole_window)(
         Row(
             "export_caption",
             "",
@@ -376,6 +359,6 @@ ACTIONS: tuple[Action, ...] = (
             ends_group=True,
         )
     ),
-    *rows_of("", FILES, "File", whole_window)(Row("quit", "Ctrl+Q", "Quit", lambda w: w.close())),
+    *rows_of("", keys.FILES, "File", whole_window)(Row("quit", "Ctrl+Q", "Quit", lambda w: w.close())),
 )
 ACTIONS_BY_NAME = {action.name: action for action in ACTIONS}

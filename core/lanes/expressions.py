@@ -5,21 +5,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from core.lanes.nodes import (
-    Binary,
-    Call,
-    Choose,
-    Constant,
-    Expression,
-    Field,
-    Gather,
-    Index,
-    Logic,
-    Many,
-    Name,
-    Star,
-    Unary,
-)
+from core.lanes import nodes
 from core.lanes.problem import Place, Problem
 from core.lanes.run import Dialect, Frame, Nobody, Some, Value, split
 
@@ -43,51 +29,51 @@ class Expressions:
     def __init__(self, dialect: Dialect, functions: Functions) -> None:
         self._dialect, self._functions = dialect, functions
 
-    def value(self, node: Expression) -> Evaluated:
+    def value(self, node: nodes.Expression) -> Evaluated:
         """Compile what has a value."""
         match node:
-            case Constant(place, typed):
+            case nodes.Constant(place, typed):
                 constant = self._dialect.constant(typed, place)
                 return lambda _frame, _mask: constant
-            case Name(place, name):
+            case nodes.Name(place, name):
                 return self._name(place, name)
-            case Binary(place, operator, left, right):
+            case nodes.Binary(place, operator, left, right):
                 rule, first, second = self._dialect.rule(operator, place), self.value(left), self.value(right)
                 return lambda frame, mask: rule(first(frame, mask), second(frame, mask), mask, frame.run)
-            case Unary(place, operator, operand):
+            case nodes.Unary(place, operator, operand):
                 prefix, only = self._dialect.prefix(operator, place), self.value(operand)
                 return lambda frame, mask: prefix(only(frame, mask))
-            case Logic():
+            case nodes.Logic():
                 return self._logic(node)
-            case Choose():
+            case nodes.Choose():
                 return self._choose(node)
-            case Index(place, whole, index):
+            case nodes.Index(place, whole, index):
                 of, at = self.value(whole), self.value(index)
                 part = self._dialect.part
                 return lambda frame, mask: part(of(frame, mask), at(frame, mask), mask, place, frame.run)
-            case Field(place, whole, name):
+            case nodes.Field(place, whole, name):
                 owner = self.value(whole)
                 return lambda frame, mask: self._dialect.field(owner(frame, mask), name, place)
-            case Many(place, parts):
+            case nodes.Many(place, parts):
                 return self._many(place, parts)
-            case Gather():
+            case nodes.Gather():
                 return self._gather(node)
-            case Call(place, function, arguments):
+            case nodes.Call(place, function, arguments):
                 return self._call(place, function, [self.value(argument) for argument in arguments])
         raise Problem(node.place, "this has no value")
 
-    def target(self, node: Expression) -> Stored:
+    def target(self, node: nodes.Expression) -> Stored:
         """Compile what a value is stored in."""
         match node:
-            case Name(place, name):
+            case nodes.Name(place, name):
                 return lambda frame, mask, value: self.keep(frame, mask, name, value, place)
-            case Many(place, parts):
+            case nodes.Many(place, parts):
                 return self._several(place, parts)
-            case Index(place, Name(_, name), index):
+            case nodes.Index(place, nodes.Name(_, name), index):
                 return self._element(place, name, self.value(index))
-            case Field(place, Name(_, name), field):
+            case nodes.Field(place, nodes.Name(_, name), field):
                 return self._element(place, name, lambda _frame, _mask: field)
-            case Index(place, Index(_, Name(_, name), outer), inner):
+            case nodes.Index(place, nodes.Index(_, nodes.Name(_, name), outer), inner):
                 return self._inner_element(place, name, self.value(outer), self.value(inner))
         raise Problem(node.place, "nothing can be stored here: the left side of = must be a name, or several")
 
@@ -135,7 +121,7 @@ class Expressions:
 
         return read
 
-    def _logic(self, node: Logic) -> Evaluated:
+    def _logic(self, node: nodes.Logic) -> Evaluated:
         dialect, is_and, place = self._dialect, node.is_and, node.place
         parts = [self.value(part) for part in node.parts]
 
@@ -159,7 +145,7 @@ class Expressions:
 
         return logic
 
-    def _choose(self, node: Choose) -> Evaluated:
+    def _choose(self, node: nodes.Choose) -> Evaluated:
         dialect, place = self._dialect, node.place
         test, yes, no = self.value(node.test), self.value(node.yes), self.value(node.no)
 
@@ -180,15 +166,15 @@ class Expressions:
 
         return choose
 
-    def _many(self, place: Place, nodes: Sequence[Expression]) -> Evaluated:
-        starred = [isinstance(node, Star) for node in nodes]
-        parts = [self.value(node.part if isinstance(node, Star) else node) for node in nodes]
+    def _many(self, place: Place, several: Sequence[nodes.Expression]) -> Evaluated:
+        starred = [isinstance(node, nodes.Star) for node in several]
+        parts = [self.value(node.part if isinstance(node, nodes.Star) else node) for node in several]
         many = self._dialect.many
         return lambda frame, mask: many(
             [part(frame, mask) for part in parts], starred, mask, place, frame.run
         )
 
-    def _gather(self, node: Gather) -> Evaluated:
+    def _gather(self, node: nodes.Gather) -> Evaluated:
         dialect, place = self._dialect, node.place
         store, things, element = self.target(node.target), self.value(node.things), self.value(node.element)
         tests = [self.value(test) for test in node.tests]
@@ -218,9 +204,9 @@ class Expressions:
 
         return call
 
-    def _several(self, place: Place, nodes: Sequence[Expression]) -> Stored:
-        starred = [isinstance(node, Star) for node in nodes]
-        parts = [self.target(node.part if isinstance(node, Star) else node) for node in nodes]
+    def _several(self, place: Place, several: Sequence[nodes.Expression]) -> Stored:
+        starred = [isinstance(node, nodes.Star) for node in several]
+        parts = [self.target(node.part if isinstance(node, nodes.Star) else node) for node in several]
 
         def unpack(frame: Frame, mask: Some, value: Value) -> None:
             values = self._dialect.unpacked(value, starred, mask, place, frame.run)

@@ -3,33 +3,7 @@
 import ast
 from collections.abc import Sequence
 
-from core.lanes.nodes import (
-    Assign,
-    Binary,
-    Block,
-    Break,
-    Call,
-    Choose,
-    Constant,
-    Continue,
-    Each,
-    Evaluate,
-    Expression,
-    Function,
-    Gather,
-    If,
-    Index,
-    Logic,
-    Loop,
-    Many,
-    Name,
-    Nothing,
-    Put,
-    Return,
-    Star,
-    Statement,
-    Unary,
-)
+from core.lanes import nodes
 from core.lanes.problem import LARGEST, Place, Problem
 from core.lanes.python_values import TOO_LARGE
 
@@ -105,7 +79,7 @@ class Reader:
         before = text.encode("utf-8", "surrogatepass")[:offset].decode("utf-8", "replace")
         return Place(line, len(before) + 1)
 
-    def function(self, node: ast.FunctionDef) -> Function:
+    def function(self, node: ast.FunctionDef) -> nodes.Function:
         """Read one function."""
         given = node.args
         if given.kwonlyargs or given.vararg or given.kwarg or given.posonlyargs or node.decorator_list:
@@ -116,7 +90,7 @@ class Reader:
             raise Problem(
                 body[-1].place, f"{node.name} may end here without return: its last line must be return ..."
             )
-        return Function(self.place(node), node.name, parameters, body)
+        return nodes.Function(self.place(node), node.name, parameters, body)
 
     def _refuse(self, node: ast.AST) -> Problem:
         word = OUTSIDE.get(type(node))
@@ -133,42 +107,44 @@ class Reader:
         if self._depth > DEEPEST:
             raise Problem(self.place(node), "too much stands in each other here")
 
-    def _body(self, nodes: Sequence[ast.stmt]) -> tuple[Statement, ...]:
-        self._deeper(nodes[0])
-        found = tuple(self._statement(node) for node in nodes)
+    def _body(self, body: Sequence[ast.stmt]) -> tuple[nodes.Statement, ...]:
+        self._deeper(body[0])
+        found = tuple(self._statement(node) for node in body)
         self._depth -= 1
         return found
 
-    def _statement(self, node: ast.stmt) -> Statement:
+    def _statement(self, node: ast.stmt) -> nodes.Statement:
         place = self.place(node)
         match node:
             case ast.Expr(ast.Constant(str())) | ast.Pass() | ast.Delete([ast.Name()]):
-                return Nothing(place)
+                return nodes.Nothing(place)
             case ast.Raise(exc=ast.Call(args=args)):
                 text = args[0].value if args and isinstance(args[0], ast.Constant) else None
                 said = text if isinstance(text, str) else "the listing stops here"
-                return Evaluate(place, Call(place, "raise", (Constant(place, said),)))
+                return nodes.Evaluate(place, nodes.Call(place, "raise", (nodes.Constant(place, said),)))
             case ast.Assign(targets, value):
                 return self._assign(place, targets, value)
             case ast.AnnAssign(target=ast.Name() as target, value=ast.expr() as value):
-                return Assign(place, self._left(target), self._value(value))
+                return nodes.Assign(place, self._left(target), self._value(value))
             case ast.AugAssign(target, operator, value) if type(operator) in OPERATORS:
-                changed = Binary(place, OPERATORS[type(operator)], self._value(target), self._value(value))
-                return Assign(place, self._left(target), changed)
+                changed = nodes.Binary(
+                    place, OPERATORS[type(operator)], self._value(target), self._value(value)
+                )
+                return nodes.Assign(place, self._left(target), changed)
             case ast.If(test, yes, no):
-                return If(place, self._value(test), self._body(yes), self._body(no) if no else ())
+                return nodes.If(place, self._value(test), self._body(yes), self._body(no) if no else ())
             case ast.While(test, body, []):
-                return Loop(place, self._value(test), self._body(body))
+                return nodes.Loop(place, self._value(test), self._body(body))
             case ast.For(target, things, body, []):
-                return Each(place, self._left(target), self._value(things), self._body(body))
+                return nodes.Each(place, self._left(target), self._value(things), self._body(body))
             case ast.Return(value):
-                return Return(place, None if value is None else self._value(value))
+                return nodes.Return(place, None if value is None else self._value(value))
             case ast.Break():
-                return Break(place)
+                return nodes.Break(place)
             case ast.Continue():
-                return Continue(place)
+                return nodes.Continue(place)
             case ast.Expr(ast.Call(ast.Attribute(ast.Name(name), "append"), [value], [])):
-                return Put(place, name, self._value(value))
+                return nodes.Put(place, name, self._value(value))
             case ast.Expr(ast.Call(ast.Attribute(ast.Name(), "append"))):
                 raise Problem(
                     place, ".append takes one value: put brackets around several, as .append((x, y))"
@@ -182,34 +158,34 @@ class Reader:
             case ast.Expr(ast.Compare() | ast.BinOp() | ast.Name() | ast.Constant() | ast.Subscript()):
                 raise Problem(place, "this line changes nothing: a value is stored by name = ...")
             case ast.Expr(value):
-                return Evaluate(place, self._value(value))
+                return nodes.Evaluate(place, self._value(value))
         raise self._refuse(node)
 
-    def _assign(self, place: Place, targets: Sequence[ast.expr], value: ast.expr) -> Statement:
+    def _assign(self, place: Place, targets: Sequence[ast.expr], value: ast.expr) -> nodes.Statement:
         *others, last = targets
-        first = Assign(place, self._left(last), self._value(value))
+        first = nodes.Assign(place, self._left(last), self._value(value))
         if not others:
             return first
-        again = [Assign(place, self._left(target), self._value(last)) for target in others]
-        return Block(place, (first, *again))
+        again = [nodes.Assign(place, self._left(target), self._value(last)) for target in others]
+        return nodes.Block(place, (first, *again))
 
-    def _left(self, node: ast.expr) -> Expression:
+    def _left(self, node: ast.expr) -> nodes.Expression:
         place = self.place(node)
         match node:
             case ast.Starred(value):
-                return Star(place, self._left(value))
+                return nodes.Star(place, self._left(value))
             case ast.Tuple(parts) | ast.List(parts):
-                return Many(place, tuple(self._left(part) for part in parts))
+                return nodes.Many(place, tuple(self._left(part) for part in parts))
             case ast.Name() | ast.Subscript():
                 return self._value(node)
             case ast.Attribute():
                 raise self._refuse(node)
         raise Problem(place, "the left side of = must be a name, or several")
 
-    def _values(self, nodes: Sequence[ast.expr]) -> tuple[Expression, ...]:
-        return tuple(self._value(node) for node in nodes)
+    def _values(self, values: Sequence[ast.expr]) -> tuple[nodes.Expression, ...]:
+        return tuple(self._value(value) for value in values)
 
-    def _value(self, node: ast.expr) -> Expression:
+    def _value(self, node: ast.expr) -> nodes.Expression:
         self._deeper(node)
         found = self._simple(node) or self._compound(node)
         self._depth -= 1
@@ -217,90 +193,92 @@ class Reader:
             raise self._refuse(node)
         return found
 
-    def _simple(self, node: ast.expr) -> Expression | None:
+    def _simple(self, node: ast.expr) -> nodes.Expression | None:
         place = self.place(node)
         match node:
             case ast.Constant(bool() | int() | float() | str() | None as value):
                 if isinstance(value, int) and abs(value) > LARGEST:
                     raise Problem(place, TOO_LARGE)
-                return Constant(place, value)
+                return nodes.Constant(place, value)
             case ast.Name(name):
-                return Name(place, name)
+                return nodes.Name(place, name)
             case ast.BinOp(left, operator, right):
                 if type(operator) not in OPERATORS:
                     raise self._refuse(operator if type(operator) in OUTSIDE else node)
-                return Binary(place, OPERATORS[type(operator)], self._value(left), self._value(right))
+                return nodes.Binary(place, OPERATORS[type(operator)], self._value(left), self._value(right))
             case ast.UnaryOp(operator, operand):
                 if type(operator) not in PREFIXES:
                     raise Problem(place, "~ is not in the language of listings: write not")
-                return Unary(place, PREFIXES[type(operator)], self._value(operand))
+                return nodes.Unary(place, PREFIXES[type(operator)], self._value(operand))
             case ast.BoolOp(operator, parts):
-                return Logic(place, isinstance(operator, ast.And), self._values(parts))
+                return nodes.Logic(place, isinstance(operator, ast.And), self._values(parts))
             case ast.Compare():
                 return self._comparison(node)
             case ast.IfExp(test, yes, no):
-                return Choose(place, self._value(test), self._value(yes), self._value(no))
+                return nodes.Choose(place, self._value(test), self._value(yes), self._value(no))
         return None
 
-    def _compound(self, node: ast.expr) -> Expression | None:
+    def _compound(self, node: ast.expr) -> nodes.Expression | None:
         place = self.place(node)
         match node:
             case ast.Tuple(parts) | ast.List(parts):
                 made = [
-                    Star(place, self._value(part.value))
+                    nodes.Star(place, self._value(part.value))
                     if isinstance(part, ast.Starred)
                     else self._value(part)
                     for part in parts
                 ]
-                return Many(place, tuple(made))
+                return nodes.Many(place, tuple(made))
             case ast.Subscript(whole, ast.Slice() as ends):
                 return self._slice(place, whole, ends)
             case ast.Subscript(whole, index):
-                return Index(place, self._value(whole), self._value(index))
+                return nodes.Index(place, self._value(whole), self._value(index))
             case ast.ListComp(element, [of]) | ast.GeneratorExp(element, [of]):
                 tests = self._values(of.ifs)
-                return Gather(place, self._value(element), self._left(of.target), self._value(of.iter), tests)
+                return nodes.Gather(
+                    place, self._value(element), self._left(of.target), self._value(of.iter), tests
+                )
             case ast.Call():
                 return self._call(place, node)
         return None
 
-    def _comparison(self, node: ast.Compare) -> Expression:
+    def _comparison(self, node: ast.Compare) -> nodes.Expression:
         place = self.place(node)
         match node:
             case ast.Compare(left, [ast.Is() | ast.IsNot() as operator], [ast.Constant(None)]):
-                found: Expression = Call(place, "is None", (self._value(left),))
-                return found if isinstance(operator, ast.Is) else Unary(place, "not", found)
+                found: nodes.Expression = nodes.Call(place, "is None", (self._value(left),))
+                return found if isinstance(operator, ast.Is) else nodes.Unary(place, "not", found)
             case ast.Compare(left, [ast.In() | ast.NotIn() as operator], [right]):
-                found = Call(place, "in", (self._value(left), self._value(right)))
-                return found if isinstance(operator, ast.In) else Unary(place, "not", found)
+                found = nodes.Call(place, "in", (self._value(left), self._value(right)))
+                return found if isinstance(operator, ast.In) else nodes.Unary(place, "not", found)
         if not all(type(operator) in COMPARISONS for operator in node.ops):
             raise Problem(place, "is and in do not stand in a row of comparisons: numbers are compared by ==")
         sides = self._values((node.left, *node.comparators))
         pairs = [
-            Binary(place, COMPARISONS[type(operator)], left, right)
+            nodes.Binary(place, COMPARISONS[type(operator)], left, right)
             for left, operator, right in zip(sides, node.ops, sides[1:], strict=False)
         ]
-        return pairs[0] if len(pairs) == 1 else Logic(place, True, tuple(pairs))
+        return pairs[0] if len(pairs) == 1 else nodes.Logic(place, True, tuple(pairs))
 
-    def _slice(self, place: Place, whole: ast.expr, ends: ast.Slice) -> Expression:
+    def _slice(self, place: Place, whole: ast.expr, ends: ast.Slice) -> nodes.Expression:
         if ends.step is not None and ends.lower is None and ends.upper is None:
-            return Call(place, "range by", (self._value(whole), self._value(ends.step)))
+            return nodes.Call(place, "range by", (self._value(whole), self._value(ends.step)))
         written = [None if end is None else _whole_number(end) for end in (ends.lower, ends.upper)]
         if ends.step is not None or "other" in written:
             raise self._refuse(ends)
-        first, end = (Constant(place, number) for number in written)
-        return Call(place, "slice of", (self._value(whole), first, end))
+        first, end = (nodes.Constant(place, number) for number in written)
+        return nodes.Call(place, "slice of", (self._value(whole), first, end))
 
-    def _call(self, place: Place, node: ast.Call) -> Expression:
+    def _call(self, place: Place, node: ast.Call) -> nodes.Expression:
         match node:
             case ast.Call(ast.Name("zip" | "pairwise" as name), arguments, keywords):
                 if any(keyword.arg != "strict" for keyword in keywords):
                     raise self._refuse(node)
-                return Call(place, name, self._values(arguments))
+                return nodes.Call(place, name, self._values(arguments))
             case ast.Call(ast.Name(name), arguments, []):
-                return Call(place, name, self._values(arguments))
+                return nodes.Call(place, name, self._values(arguments))
             case ast.Call(ast.Attribute(ast.Name("np"), "float32" | "rint" as name), arguments, []):
-                return Call(place, name, self._values(arguments))
+                return nodes.Call(place, name, self._values(arguments))
             case ast.Call(ast.Attribute(attr=name)):
                 raise Problem(place, f".{name} is not in the language of listings")
         raise self._refuse(node)
@@ -316,26 +294,26 @@ def _whole_number(node: ast.expr) -> int | str:
     return "other"
 
 
-def _returns_somewhere(body: Sequence[Statement]) -> bool:
+def _returns_somewhere(body: Sequence[nodes.Statement]) -> bool:
     """Return whether a return with a value stands in some statements."""
     for statement in body:
         match statement:
-            case Return(_, Expression()):
+            case nodes.Return(_, nodes.Expression()):
                 return True
-            case If(_, _, yes, no) if _returns_somewhere((*yes, *no)):
+            case nodes.If(_, _, yes, no) if _returns_somewhere((*yes, *no)):
                 return True
-            case Loop(_, _, inner) | Each(_, _, _, inner) if _returns_somewhere(inner):
+            case nodes.Loop(_, _, inner) | nodes.Each(_, _, _, inner) if _returns_somewhere(inner):
                 return True
     return False
 
 
-def _always_returns(body: Sequence[Statement]) -> bool:
+def _always_returns(body: Sequence[nodes.Statement]) -> bool:
     """Return whether some statements leave the function on every way through them."""
     match body[-1]:
-        case Return() | Evaluate(_, Call(_, "raise")):
+        case nodes.Return() | nodes.Evaluate(_, nodes.Call(_, "raise")):
             return True
-        case If(_, _, yes, no):
+        case nodes.If(_, _, yes, no):
             return bool(no) and _always_returns(yes) and _always_returns(no)
-        case Loop(_, Constant(_, True)):
+        case nodes.Loop(_, nodes.Constant(_, True)):
             return True
     return False

@@ -8,23 +8,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from core.lanes import nodes
 from core.lanes.expressions import Evaluated, Expressions, Functions, Stored
-from core.lanes.nodes import (
-    Assign,
-    Block,
-    Break,
-    Continue,
-    Declare,
-    Discard,
-    Each,
-    Evaluate,
-    If,
-    Loop,
-    Nothing,
-    Put,
-    Return,
-    Statement,
-)
 from core.lanes.problem import Place, Problem
 from core.lanes.run import NOBODY, UNSET, Dialect, Frame, Mask, Nobody, Some, joined, split
 
@@ -42,7 +27,7 @@ class Statements:
         self._expressions = self.expressions(dialect, functions)
         self._value, self._target = self._expressions.value, self._expressions.target
 
-    def body(self, body: Sequence[Statement]) -> Step:
+    def body(self, body: Sequence[nodes.Statement]) -> Step:
         """Compile statements that run one after the other."""
         steps = [self.statement(statement) for statement in body]
         if len(steps) == 1:
@@ -61,36 +46,36 @@ class Statements:
 
         return run_body
 
-    def statement(self, node: Statement) -> Step:
+    def statement(self, node: nodes.Statement) -> Step:
         """Compile a statement."""
         match node:
-            case Nothing():
+            case nodes.Nothing():
                 return lambda _frame, mask: mask
-            case Block(_, body):
+            case nodes.Block(_, body):
                 return self.body(body)
-            case Assign():
+            case nodes.Assign():
                 return self._assign(node)
-            case Declare():
+            case nodes.Declare():
                 return self._declare(node)
-            case Put():
+            case nodes.Put():
                 return self._put(node)
-            case Evaluate(_, value):
+            case nodes.Evaluate(_, value):
                 return self._evaluate(node, self._value(value))
-            case If():
+            case nodes.If():
                 return self._if(node)
-            case Loop():
+            case nodes.Loop():
                 return self._loop(node)
-            case Each():
+            case nodes.Each():
                 return self._each(node)
-            case Break() | Continue():
-                return self._leave(node, int(isinstance(node, Continue)))
-            case Return():
+            case nodes.Break() | nodes.Continue():
+                return self._leave(node, int(isinstance(node, nodes.Continue)))
+            case nodes.Return():
                 return self._return(node)
-            case Discard():
+            case nodes.Discard():
                 return self._discard(node)
         raise Problem(node.place, "this is not known here")
 
-    def _assign(self, node: Assign) -> Step:
+    def _assign(self, node: nodes.Assign) -> Step:
         value, store, place = self._value(node.value), self._target(node.target), node.place
 
         def run_assign(frame: Frame, mask: Some) -> Mask:
@@ -106,7 +91,7 @@ class Statements:
 
         return run_assign
 
-    def _declare(self, node: Declare) -> Step:
+    def _declare(self, node: nodes.Declare) -> Step:
         made = None if node.value is None else self._value(node.value)
         place, dialect, keep = node.place, self.dialect, self._expressions.keep
 
@@ -128,7 +113,7 @@ class Statements:
 
         return run_declare
 
-    def _put(self, node: Put) -> Step:
+    def _put(self, node: nodes.Put) -> Step:
         value, place, look = self._value(node.value), node.place, self._expressions.look
 
         def run_put(frame: Frame, mask: Some) -> Mask:
@@ -144,7 +129,7 @@ class Statements:
 
         return run_put
 
-    def _evaluate(self, node: Evaluate, value: Evaluated) -> Step:
+    def _evaluate(self, node: nodes.Evaluate, value: Evaluated) -> Step:
         def run_evaluate(frame: Frame, mask: Some) -> Mask:
             frame.run.tick(node.place)
             value(frame, mask)
@@ -152,7 +137,7 @@ class Statements:
 
         return run_evaluate
 
-    def _if(self, node: If) -> Step:
+    def _if(self, node: nodes.If) -> Step:
         test, yes, place = self._value(node.test), self.body(node.yes), node.place
         no = self.body(node.no) if node.no else None
 
@@ -181,7 +166,7 @@ class Statements:
 
         return run_if
 
-    def _loop(self, node: Loop) -> Step:
+    def _loop(self, node: nodes.Loop) -> Step:
         test, body, place = self._value(node.test), self.body(node.body), node.place
         step = None if node.step is None else self.statement(node.step)
 
@@ -204,7 +189,7 @@ class Statements:
 
         return run_loop
 
-    def _each(self, node: Each) -> Step:
+    def _each(self, node: nodes.Each) -> Step:
         store: Stored = self._target(node.target)
         things, body, place = self._value(node.things), self.body(node.body), node.place
 
@@ -226,7 +211,7 @@ class Statements:
 
         return run_each
 
-    def _leave(self, node: Break | Continue, which: int) -> Step:
+    def _leave(self, node: nodes.Break | nodes.Continue, which: int) -> Step:
         def run_leave(frame: Frame, mask: Some) -> Mask:
             frame.run.tick(node.place)
             if not frame.loops:
@@ -237,7 +222,7 @@ class Statements:
 
         return run_leave
 
-    def _return(self, node: Return) -> Step:
+    def _return(self, node: nodes.Return) -> Step:
         made = None if node.value is None else self._value(node.value)
         place, dialect = node.place, self.dialect
 
@@ -260,7 +245,7 @@ class Statements:
 
         return run_return
 
-    def _discard(self, node: Discard) -> Step:
+    def _discard(self, node: nodes.Discard) -> Step:
         def run_discard(frame: Frame, mask: Some) -> Mask:
             frame.run.tick(node.place)
             frame.run.dead = joined(frame.run.dead, mask)

@@ -6,27 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from core.lanes.nodes import (
-    Assign,
-    Binary,
-    Break,
-    Call,
-    Choose,
-    Continue,
-    Declare,
-    Discard,
-    Evaluate,
-    Expression,
-    Field,
-    If,
-    Index,
-    Logic,
-    Loop,
-    Name,
-    Return,
-    Statement,
-    Unary,
-)
+from core.lanes import nodes
 from core.lanes.problem import Problem
 from core.lanes.program import LaneStep
 from core.lanes.run import Frame, Run, Some, Watch
@@ -48,7 +28,7 @@ STEP_LIMIT = 20_000
 class ExecutedStatement:
     """A statement that ran for some of L lanes."""
 
-    node: Statement
+    node: nodes.Statement
     depth: int
     """How many calls deep it stands: 1 in main."""
     packed: Any
@@ -97,7 +77,7 @@ class Recorder:
         self.steps: list[ExecutedStatement] = []
         self._lanes, self._open = lanes, OpenStatements()
 
-    def begin(self, statement: Statement, mask: Some, frame: Frame) -> None:
+    def begin(self, statement: nodes.Statement, mask: Some, frame: Frame) -> None:
         """Note a statement that is about to run in the lanes of a mask (L,): its calls come behind it."""
         if len(self.steps) >= STEP_LIMIT:
             raise Problem(statement.place, f"this takes more than {STEP_LIMIT:,} steps: stopped here")
@@ -105,7 +85,7 @@ class Recorder:
         live = np.ones(self._lanes, bool) if mask is None else mask
         self.steps.append(ExecutedStatement(statement, frame.depth, np.packbits(live), self._lanes, None))
 
-    def end(self, statement: Statement, mask: Some, frame: Frame, value: Any) -> None:
+    def end(self, statement: nodes.Statement, mask: Some, frame: Frame, value: Any) -> None:
         """Note what the statement gave in the lanes of a mask (L,)."""
         unset = self._open.end(frame.run)
         for at in range(len(self.steps) - 1, -1, -1):
@@ -119,16 +99,16 @@ class Recorder:
                 return
 
 
-def stored_name(statement: Statement) -> str:
+def stored_name(statement: nodes.Statement) -> str:
     """Return the own name of the variable that a statement gives a value; empty: none."""
-    if isinstance(statement, Declare):
+    if isinstance(statement, nodes.Declare):
         return statement.name
-    if not isinstance(statement, Assign):
+    if not isinstance(statement, nodes.Assign):
         return ""
     target = statement.target
-    while isinstance(target, Index | Field):
+    while isinstance(target, nodes.Index | nodes.Field):
         target = target.whole
-    return target.name if isinstance(target, Name) else ""
+    return target.name if isinstance(target, nodes.Name) else ""
 
 
 # The steps of one lane of a shader, with plain numbers: what each line had, computed and left, in words.
@@ -136,9 +116,9 @@ def stored_name(statement: Statement) -> str:
 
 SAME = {"++": "+", "--": "-", "^^": "!="}
 """Operators that words have another name for."""
-LEAVES: dict[type[Statement], str] = {
-    Break: "break: the loop ends here",
-    Continue: "continue: the next round begins",
+LEAVES: dict[type[nodes.Statement], str] = {
+    nodes.Break: "break: the loop ends here",
+    nodes.Continue: "continue: the next round begins",
 }
 
 
@@ -155,17 +135,17 @@ class _LaneRecorder:
     def __init__(self, lane: int) -> None:
         self.steps: list[LaneStep | None] = []
         self._lane = lane
-        self._open: list[tuple[Statement, int, dict[str, Any]]] = []
+        self._open: list[tuple[nodes.Statement, int, dict[str, Any]]] = []
         self._statements = OpenStatements()
 
-    def begin(self, statement: Statement, mask: Some, frame: Frame) -> None:
+    def begin(self, statement: nodes.Statement, mask: Some, frame: Frame) -> None:
         """Keep the variables before a statement."""
         self._statements.begin(frame.run)
         if mask is None or mask[self._lane]:
             self._open.append((statement, len(self.steps), dict(frame.names)))
             self.steps.append(None)
 
-    def end(self, statement: Statement, mask: Some, frame: Frame, value: Any) -> None:
+    def end(self, statement: nodes.Statement, mask: Some, frame: Frame, value: Any) -> None:
         """Keep the step."""
         unset = self._statements.end(frame.run)
         if not (mask is None or mask[self._lane]):
@@ -207,19 +187,19 @@ def _number(part: Any, lane: int) -> Any:
 def words_of(step: LaneStep) -> str:
     """Return a step in words: its line, the line with its numbers, and what came out."""
     node = step.statement
-    if isinstance(node, Discard):
+    if isinstance(node, nodes.Discard):
         return "discard: the fragment ends here, and nothing of it is written"
-    if isinstance(node, Break | Continue):
+    if isinstance(node, nodes.Break | nodes.Continue):
         return LEAVES[type(node)]
-    if isinstance(node, Evaluate):
+    if isinstance(node, nodes.Evaluate):
         now = Typed(step.before)
         return f"{in_symbols(term_of(now.expression(node.value), now.values), is_glsl=True)} runs"
-    if isinstance(node, Return) and node.value is None:
+    if isinstance(node, nodes.Return) and node.value is None:
         return "return: this function ends here"
-    if isinstance(node, Declare) and node.value is None:
+    if isinstance(node, nodes.Declare) and node.value is None:
         return f"{typed_name(node.name)} begins without a value: here it is 0"
     told = said(_typed_step(step), is_glsl=True)
-    if isinstance(node, Loop):
+    if isinstance(node, nodes.Loop):
         return f"{told}: {'one more round' if step.value else 'the loop ends'}"
     return told
 
@@ -234,8 +214,12 @@ def _typed_step(step: LaneStep) -> LaneStep:
 def computed(step: LaneStep) -> Equality | None:
     """Return what a step computes, as terms; ``None``: nothing, or a matrix. Matrices within keep their symbols."""
     node = step.statement
-    is_empty = isinstance(node, Declare | Return) and node.value is None
-    if is_empty or isinstance(node, Discard | Break | Continue | Evaluate) or _is_matrix(step.value):
+    is_empty = isinstance(node, nodes.Declare | nodes.Return) and node.value is None
+    if (
+        is_empty
+        or isinstance(node, nodes.Discard | nodes.Break | nodes.Continue | nodes.Evaluate)
+        or _is_matrix(step.value)
+    ):
         return None
     (found,) = equalities(_typed_step(step))
     return replace(found, right=_named(found.right, _is_matrix))
@@ -263,50 +247,52 @@ class Typed:
         self._before = before
         self.values: dict[str, Any] = {}
 
-    def statement(self, node: Statement) -> Statement:
+    def statement(self, node: nodes.Statement) -> nodes.Statement:
         """Return a statement of typed names."""
         match node:
-            case Assign(place, target, value):
-                return Assign(place, self.expression(target), self.expression(value))
-            case Declare(place, of, name, value):
-                return Declare(place, of, typed_name(name), None if value is None else self.expression(value))
-            case Return(place, value):
-                return Return(place, None if value is None else self.expression(value))
-            case If(place, test):
-                return If(place, self.expression(test), (), ())
-            case Loop(place, test):
-                return Loop(place, self.expression(test), ())
+            case nodes.Assign(place, target, value):
+                return nodes.Assign(place, self.expression(target), self.expression(value))
+            case nodes.Declare(place, of, name, value):
+                return nodes.Declare(
+                    place, of, typed_name(name), None if value is None else self.expression(value)
+                )
+            case nodes.Return(place, value):
+                return nodes.Return(place, None if value is None else self.expression(value))
+            case nodes.If(place, test):
+                return nodes.If(place, self.expression(test), (), ())
+            case nodes.Loop(place, test):
+                return nodes.Loop(place, self.expression(test), ())
         return node
 
-    def expression(self, node: Expression) -> Expression:
+    def expression(self, node: nodes.Expression) -> nodes.Expression:
         """Return an expression of typed names."""
         match node:
-            case Name(place, name):
+            case nodes.Name(place, name):
                 return self._named(place, typed_name(name), self._before.get(name))
-            case Field(place, Name(_, name), letters):
+            case nodes.Field(place, nodes.Name(_, name), letters):
                 held = self._before.get(name)
                 picks = [next((k.index(x) for k in ("xyzw", "rgba", "stpq") if x in k), 0) for x in letters]
                 value = None
                 if isinstance(held, list) and max(picks) < len(held):
                     value = held[picks[0]] if len(picks) == 1 else [held[k] for k in picks]
                 return self._named(place, f"{typed_name(name)}.{letters}", value)
-            case Field(place, whole, letters):
-                return Field(place, self.expression(whole), letters)
-            case Index(place, whole, index):
-                return Index(place, self.expression(whole), self.expression(index))
-            case Binary(place, operator, left, right):
+            case nodes.Field(place, whole, letters):
+                return nodes.Field(place, self.expression(whole), letters)
+            case nodes.Index(place, whole, index):
+                return nodes.Index(place, self.expression(whole), self.expression(index))
+            case nodes.Binary(place, operator, left, right):
                 same = SAME.get(operator, operator)
-                return Binary(place, same, self.expression(left), self.expression(right))
-            case Unary(place, operator, operand):
-                return Unary(place, "not" if operator == "!" else operator, self.expression(operand))
-            case Logic(place, is_and, parts):
-                return Logic(place, is_and, tuple(map(self.expression, parts)))
-            case Choose(place, test, yes, no):
-                return Choose(place, self.expression(test), self.expression(yes), self.expression(no))
-            case Call(place, function, arguments):
-                return Call(place, function, tuple(map(self.expression, arguments)))
+                return nodes.Binary(place, same, self.expression(left), self.expression(right))
+            case nodes.Unary(place, operator, operand):
+                return nodes.Unary(place, "not" if operator == "!" else operator, self.expression(operand))
+            case nodes.Logic(place, is_and, parts):
+                return nodes.Logic(place, is_and, tuple(map(self.expression, parts)))
+            case nodes.Choose(place, test, yes, no):
+                return nodes.Choose(place, self.expression(test), self.expression(yes), self.expression(no))
+            case nodes.Call(place, function, arguments):
+                return nodes.Call(place, function, tuple(map(self.expression, arguments)))
         return node
 
-    def _named(self, place: Any, name: str, value: Any) -> Name:
+    def _named(self, place: Any, name: str, value: Any) -> nodes.Name:
         self.values[name] = value
-        return Name(place, name)
+        return nodes.Name(place, name)

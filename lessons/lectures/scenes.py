@@ -8,17 +8,11 @@ import numpy as np
 
 from core.scene import Camera, ClipScene, Mesh, Scene
 from core.shaders.presets import preset_program
+from lessons import window_scenes
 from lessons.run_place import RunPlace
 from lessons.scenes import CATALOGUE, BuiltInScene
 from lessons.shapes import RED_GREEN_BLUE, checkerboard, cube, linear_color
 from lessons.small_scenes import SPLIT_SQUARE, pixel_segments, segment_scene, triangles
-from lessons.window_scenes import (
-    equal_depths,
-    larger_is_nearer,
-    two_triangles,
-    two_triangles_turned,
-    window_triangle,
-)
 from lessons.world_scenes import TEACHING_SIZE
 
 LECTURES = {
@@ -89,7 +83,9 @@ def quad_in_perspective() -> ClipScene:
     x, y, w = np.array([6, 58, 45, 19]), np.array([5, 5, 42, 42]), np.array([1, 1, 2, 2])
     uv = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])
     corners = np.array([[0, 1, 2], [0, 2, 3]])
-    clip = np.stack([window_triangle(x[k], y[k], np.full(3, 0.5), w[k], TEACHING_SIZE) for k in corners])
+    clip = np.stack(
+        [window_scenes.window_triangle(x[k], y[k], np.full(3, 0.5), w[k], TEACHING_SIZE) for k in corners]
+    )
     return ClipScene(clip, uv[corners], TEACHING_SIZE, checkerboard(), shared=corners)
 
 
@@ -150,7 +146,7 @@ LECTURE_SCENES = {
             "zwicker-z-buffer",
             "Z-buffer of 1/w",
             "Three patches of 1/w in whole numbers: a pixel is updated only if the new value is larger.",
-            larger_is_nearer,
+            window_scenes.larger_is_nearer,
             RunPlace("depth", "depth-failed"),
         ),
         _scene(
@@ -192,7 +188,7 @@ LECTURE_SCENES = {
             "pellacini-z-buffer",
             "Z-buffer, the other order",
             "The two triangles of Jubair's table, the sloping one first: hidden surfaces do not depend on the order.",
-            two_triangles_turned,
+            window_scenes.two_triangles_turned,
             RunPlace("depth", "not passes and stored > before"),
         ),
     ),
@@ -249,7 +245,7 @@ LECTURE_SCENES = {
             "jubair-z-buffer",
             "Z-buffer, 8 x 8 cells",
             "Two triangles of whole-number depths, drawn into a buffer of 64 infinities.",
-            two_triangles,
+            window_scenes.two_triangles,
             RunPlace("depth", "covered"),
         ),
     ),
@@ -292,7 +288,7 @@ LECTURE_SCENES = {
             "lmu-equal-depths",
             "Z-fighting, equal depths",
             "Two patches have the same depth: with < the first one stays, with ≤ the second one replaces it.",
-            equal_depths,
+            window_scenes.equal_depths,
             RunPlace("depth", "not passes and stored == before"),
         ),
         _scene(

@@ -12,17 +12,11 @@ from pathlib import Path
 import numpy as np
 
 from app.files.file_access import NamedFiles, OutsideWarning
+from app.files.mesh_formats import reading
 from app.files.mesh_formats.dxf import read_dxf
 from app.files.mesh_formats.obj import read_obj
 from app.files.mesh_formats.off import read_off
 from app.files.mesh_formats.ply import read_ply
-from app.files.mesh_formats.reading import (
-    LoadedMeshes,
-    MeshFileError,
-    Reader,
-    Report,
-    check_positions,
-)
 from app.files.mesh_formats.stl import read_stl
 from app.files.mesh_formats.xyz import read_xyz
 from app.session.memory import MemoryBoundError
@@ -30,14 +24,14 @@ from core.scene import Mesh
 from lessons.os_errors import os_error_reason
 
 
-def read_gltf(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
+def read_gltf(path: Path, report: reading.Report, files: NamedFiles) -> reading.LoadedMeshes:
     """Read a GLB or glTF file; its reader, the largest, is loaded when there is one to read."""
     from app.files.mesh_formats import gltf
 
     return gltf.read_gltf(path, report, files)
 
 
-READERS: dict[str, Reader] = {
+READERS: dict[str, reading.Reader] = {
     ".obj": read_obj,
     ".ply": read_ply,
     ".stl": read_stl,
@@ -59,43 +53,45 @@ TOGETHER = 4096
 """Triangles looked at together: nearly always some of the first have an area."""
 
 
-def read_file(path: Path, report: Report, allows_outside: bool = False) -> LoadedMeshes:
+def read_file(path: Path, report: reading.Report, allows_outside: bool = False) -> reading.LoadedMeshes:
     """Read ``path`` with the reader of its extension and check that there is something to draw.
 
     ``allows_outside``: files that it names may be read from outside its folder.
     """
     try:
         if path.is_dir():
-            raise MeshFileError(f"{path.name} is a folder, not a mesh file")
+            raise reading.MeshFileError(f"{path.name} is a folder, not a mesh file")
         reader = READERS.get(path.suffix.lower())
         if reader is None:
             extension = f"the extension {path.suffix}" if path.suffix else "no extension"
             known = ", ".join(EXTENSIONS)
-            raise MeshFileError(f"the file {path.name} has {extension}; files that open are {known}")
+            raise reading.MeshFileError(f"the file {path.name} has {extension}; files that open are {known}")
         if path.exists() and not path.is_file():
-            raise MeshFileError(f"{path.name} is not a file")
+            raise reading.MeshFileError(f"{path.name} is not a file")
         if path.stat().st_size == 0:
-            raise MeshFileError(f"{path.name} is empty")
+            raise reading.MeshFileError(f"{path.name} is empty")
         loaded = reader(path, report, NamedFiles(path, allows_outside))
         if loaded.wires is None:
             check_meshes(path, loaded.meshes)
         loaded = replace(loaded, warnings=first_warnings(loaded.warnings))
-    except MeshFileError:
+    except reading.MeshFileError:
         raise
     except FileNotFoundError as problem:
-        raise MeshFileError(f"there is no file {path}") from problem
+        raise reading.MeshFileError(f"there is no file {path}") from problem
     except PermissionError as problem:
-        raise MeshFileError(f"{path.name} may not be read: permission is denied") from problem
+        raise reading.MeshFileError(f"{path.name} may not be read: permission is denied") from problem
     except OSError as problem:
-        raise MeshFileError(f"{path.name} cannot be read: {os_error_reason(problem)}") from problem
+        raise reading.MeshFileError(f"{path.name} cannot be read: {os_error_reason(problem)}") from problem
     except MemoryError as problem:
-        raise MeshFileError(f"{path.name} is too large: there is not enough memory for it") from problem
+        raise reading.MeshFileError(
+            f"{path.name} is too large: there is not enough memory for it"
+        ) from problem
     except MemoryBoundError as problem:
-        raise MeshFileError(f"{path.name} is too large: {problem}") from problem
+        raise reading.MeshFileError(f"{path.name} is too large: {problem}") from problem
     except (LookupError, ValueError, ArithmeticError, RecursionError) as problem:
         # The checks of the core on the arrays of a mesh, and whatever a reader has not thought of.
         said = " ".join(str(problem).split())[:200] if type(problem) is ValueError else ""
-        raise MeshFileError(
+        raise reading.MeshFileError(
             f"{path.name} cannot be used: {said or 'its parts do not fit together'}"
         ) from problem
     return loaded
@@ -112,9 +108,9 @@ def first_warnings(warnings: tuple[str, ...]) -> tuple[str, ...]:
 def check_meshes(path: Path, meshes: tuple[Mesh, ...]) -> None:
     """Raise MeshFileError if a vertex is too far away or no triangle has an area."""
     for mesh in meshes:
-        check_positions(path, mesh.positions)
+        reading.check_positions(path, mesh.positions)
     if not any(has_area(mesh, first) for mesh in meshes for first in range(0, len(mesh.triangles), TOGETHER)):
-        raise MeshFileError(f"{path.name} has only degenerate faces: no triangle has an area")
+        raise reading.MeshFileError(f"{path.name} has only degenerate faces: no triangle has an area")
 
 
 def has_area(mesh: Mesh, first: int) -> bool:

@@ -7,17 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from app.files.file_access import NamedFiles, open_text_input
-from app.files.mesh_formats.reading import (
-    LoadedMeshes,
-    MeshFileError,
-    Report,
-    Wires,
-    check_memory,
-    check_text,
-    load_wires,
-    load_with_trimesh,
-    translated_errors,
-)
+from app.files.mesh_formats import reading
 
 MEMORY_PER_BYTE = 400
 """Bytes of memory that a byte of a DXF file takes at most while it is opened: a circle has 80 segments (measured)."""
@@ -32,15 +22,15 @@ SILENT = {"VERTEX", "SEQEND", "BLOCK", "ENDBLK", "SECTION", "ENDSEC", "ATTDEF", 
 """What belongs to these, or draws nothing."""
 
 
-def read_dxf(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
+def read_dxf(path: Path, report: reading.Report, files: NamedFiles) -> reading.LoadedMeshes:
     """Read a DXF file of text: its lines, polylines, circles, arcs and inserted blocks are segments with z = 0.
 
     Other entities, such as splines and texts, and heights are left out with a warning. Raises MeshFileError if it is
     cut short, is no DXF file, or has nothing that is read; OSError if ``path`` cannot be read.
     """
     size = path.stat().st_size
-    check_memory(path, size * MEMORY_PER_BYTE)
-    check_text(path, "DXF")
+    reading.check_memory(path, size * MEMORY_PER_BYTE)
+    reading.check_text(path, "DXF")
     with open_text_input(path) as file:
         lines = [line.strip().upper() for line in file.read().strip().splitlines()]
     codes, values = lines[::2], lines[1::2]
@@ -49,27 +39,31 @@ def read_dxf(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
         or "ENTITIES" not in values
         or "ENDSEC" not in values[values.index("ENTITIES") :]
     ):
-        raise MeshFileError(
+        raise reading.MeshFileError(
             f"{path.name} is cut short or not a DXF file: its lines are not pairs with a whole section ENTITIES"
         )
-    check_memory(path, len(lines) * max(map(len, lines)) * MEMORY_PER_LETTER)
-    check_memory(path, size * (1 + values.count("INSERT")) * MEMORY_PER_BYTE if "BLOCKS" in values else 0)
+    reading.check_memory(path, len(lines) * max(map(len, lines)) * MEMORY_PER_LETTER)
+    reading.check_memory(
+        path, size * (1 + values.count("INSERT")) * MEMORY_PER_BYTE if "BLOCKS" in values else 0
+    )
     report(None, "reading lines, circles and arcs")
-    with translated_errors(path, "an entity does not have the numbers that it needs"):
+    with reading.translated_errors(path, "an entity does not have the numbers that it needs"):
         strips = [
             entity.discrete(np.asarray(drawing.vertices), scale=float(np.ptp(drawing.vertices)))
-            for drawing in load_with_trimesh(path).geometry.values()
+            for drawing in reading.load_with_trimesh(path).geometry.values()
             for entity in drawing.entities
             if type(entity).__name__ in ("Line", "Arc")
         ]
     if not strips:
-        raise MeshFileError(f"{path.name} has no lines, circles or arcs")
+        raise reading.MeshFileError(f"{path.name} has no lines, circles or arcs")
     positions = np.concatenate(strips)
     is_last = np.zeros(len(positions), np.bool_)
     is_last[np.cumsum([len(strip) for strip in strips]) - 1] = True
     first = np.flatnonzero(~is_last)
-    wires = Wires(np.column_stack([positions, np.zeros(len(positions))]), np.column_stack([first, first + 1]))
-    return load_wires(path, wires, left_out(codes, values))
+    wires = reading.Wires(
+        np.column_stack([positions, np.zeros(len(positions))]), np.column_stack([first, first + 1])
+    )
+    return reading.load_wires(path, wires, left_out(codes, values))
 
 
 def left_out(codes: list[str], values: list[str]) -> list[str]:

@@ -13,22 +13,9 @@ from pathlib import Path
 import numpy as np
 
 from app.files.file_access import NamedFiles, open_input
+from app.files.mesh_formats import reading
 from app.files.mesh_formats.images import TextureReader, linear_from_srgb
 from app.files.mesh_formats.mtl import ObjMaterial, find_materials
-from app.files.mesh_formats.reading import (
-    LoadedMeshes,
-    MeshFileError,
-    Report,
-    Wires,
-    check_memory,
-    check_mesh_count,
-    check_positions,
-    check_text,
-    load_wires,
-    numbers_of,
-    share_vertices,
-    triangulate_polygons,
-)
 from core.records.arrays import Floats, Integers
 from core.records.words import counted
 from core.scene import Mesh
@@ -230,7 +217,7 @@ class ObjLines:
         return True
 
 
-def read_lines(path: Path, report: Report) -> ObjLines:
+def read_lines(path: Path, report: reading.Report) -> ObjLines:
     """Read all lines of ``path``; a line that cannot be read raises MeshFileError with its number."""
     found = ObjLines()
     with open_input(path) as file:
@@ -255,7 +242,7 @@ def read_lines(path: Path, report: Report) -> ObjLines:
             report(done / len(content), "reading lines")
         read_line(found, held, number)
     except ValueError as problem:
-        raise MeshFileError(f"{path.name}, line {number}: {problem}") from problem
+        raise reading.MeshFileError(f"{path.name}, line {number}: {problem}") from problem
     return found
 
 
@@ -268,7 +255,7 @@ def read_line(found: ObjLines, line: str, number: int) -> None:
     if "#" in line and keyword in ("v", "vt", "vn", "f", "l", "p"):
         words = line.partition("#")[0].split()
     if keyword == "v":
-        found.vertex(numbers_of(words[1:]))
+        found.vertex(reading.numbers_of(words[1:]))
     elif keyword == "f":
         found.face(words[1:], number)
     elif keyword == "l":
@@ -278,11 +265,11 @@ def read_line(found: ObjLines, line: str, number: int) -> None:
     elif keyword == "vt":
         if len(words) < 2:
             raise ValueError("a texture coordinate needs 1 number or more, got 0")
-        found.uvs.extend([*numbers_of(words[1:3]), 0.0][:2])
+        found.uvs.extend([*reading.numbers_of(words[1:3]), 0.0][:2])
     elif keyword == "vn":
         if len(words) != 4:
             raise ValueError(f"a normal needs 3 numbers, got {len(words) - 1}")
-        found.normals.extend(numbers_of(words[1:]))
+        found.normals.extend(reading.numbers_of(words[1:]))
     elif keyword == "usemtl":
         found.materials.append((len(found.sizes), line.strip()[6:].strip()))
     elif keyword == "mtllib":
@@ -298,7 +285,7 @@ MEMORY_PER_BYTE = 16
 KINDS = ("vertex", "texture coordinate", "normal")
 
 
-def read_obj(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
+def read_obj(path: Path, report: reading.Report, files: NamedFiles) -> reading.LoadedMeshes:
     """Read an OBJ file with its materials and textures.
 
     Each run of faces with one material is a mesh, so that triangles stay in the order of the file. Where the file names
@@ -308,12 +295,12 @@ def read_obj(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     MeshFileError if a line cannot be read, a number names something that is not there, or there are no vertices;
     OSError if ``path`` cannot be read.
     """
-    check_memory(path, path.stat().st_size * MEMORY_PER_BYTE)
-    check_text(path, "OBJ")
+    reading.check_memory(path, path.stat().st_size * MEMORY_PER_BYTE)
+    reading.check_text(path, "OBJ")
     found = read_lines(path, report)
     report(None, "joining corners")
     if not found.positions:
-        raise MeshFileError(f"{path.name} has no vertices: it is empty or no OBJ file")
+        raise reading.MeshFileError(f"{path.name} has no vertices: it is empty or no OBJ file")
     points, segments = np.array(found.points, np.int64), np.array(found.segments, np.int64).reshape(-1, 2)
     if not found.sizes:
         if not len(points) and not len(segments):
@@ -328,7 +315,7 @@ def read_obj(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     return replace(loaded, warnings=(*loaded.warnings, said))
 
 
-def read_wires(path: Path, found: ObjLines, points: Integers, segments: Integers) -> LoadedMeshes:
+def read_wires(path: Path, found: ObjLines, points: Integers, segments: Integers) -> reading.LoadedMeshes:
     """Return the segments (K, 2) of a file without faces, or else its points (K,); both count from 1."""
     positions = np.array(found.positions).reshape(-1, 3)
     colors = None
@@ -338,7 +325,7 @@ def read_wires(path: Path, found: ObjLines, points: Integers, segments: Integers
     if len(points) and len(segments):
         warnings.append(f"{counted(len(points), 'point')} beside the segments are left out")
     index = segments if len(segments) else points[:, None]
-    return load_wires(path, Wires(positions, index - 1, colors), warnings)
+    return reading.load_wires(path, reading.Wires(positions, index - 1, colors), warnings)
 
 
 def check_numbers(path: Path, found: ObjLines, numbers: Integers) -> None:
@@ -348,24 +335,24 @@ def check_numbers(path: Path, found: ObjLines, numbers: Integers) -> None:
     if wrong.any():
         corner, kind = (int(places[0]) for places in np.nonzero(wrong))
         line = found.lines[int(np.searchsorted(np.cumsum(found.sizes), corner, side="right"))]
-        raise MeshFileError(
+        raise reading.MeshFileError(
             f"{path.name}, line {line}: a face names {KINDS[kind]} {numbers[corner, kind]}, "
             f"the file has {counts[kind]}, counted from 1"
         )
 
 
 def build_meshes(
-    path: Path, found: ObjLines, numbers: Integers, textures: TextureReader, report: Report
-) -> LoadedMeshes:
+    path: Path, found: ObjLines, numbers: Integers, textures: TextureReader, report: reading.Report
+) -> reading.LoadedMeshes:
     """Make the meshes of the runs of one material; ``numbers`` (n, 3) count from 0, -1 is none."""
     positions = np.array(found.positions).reshape(-1, 3)
     uvs, normals = np.array(found.uvs).reshape(-1, 2), np.array(found.normals).reshape(-1, 3)
     colors = np.array(found.colors).reshape(-1, 3)
     sizes = np.array(found.sizes, np.int64)
     parts = runs(found, len(sizes))
-    check_mesh_count(path, len(parts), "runs of faces with one material")
-    check_positions(path, positions, first=1)
-    corners, faces = triangulate_polygons(positions, numbers[:, 0], sizes, report)
+    reading.check_mesh_count(path, len(parts), "runs of faces with one material")
+    reading.check_positions(path, positions, first=1)
+    corners, faces = reading.triangulate_polygons(positions, numbers[:, 0], sizes, report)
     corners = numbers[corners]
     averaged = None
     materials, warnings = find_materials(
@@ -382,7 +369,7 @@ def build_meshes(
 
         # One vertex for corners that agree in all that is used of them.
         used = [0] + [1] * is_textured + [2] * is_smooth
-        triangles, sources = share_vertices(*(part[..., kind] for kind in used))
+        triangles, sources = reading.share_vertices(*(part[..., kind] for kind in used))
         v = sources[0]
         if is_smooth:
             vertex_normal = normals[sources[-1]]
@@ -406,7 +393,7 @@ def build_meshes(
                 name=look.name or path.stem,
             )
         )
-    return LoadedMeshes(tuple(meshes), tuple(warnings))
+    return reading.LoadedMeshes(tuple(meshes), tuple(warnings))
 
 
 def runs(found: ObjLines, count: int) -> list[tuple[int, int, str]]:

@@ -8,19 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from app.files.file_access import NamedFiles, open_text_input
+from app.files.mesh_formats import reading
 from app.files.mesh_formats.images import linear_from_srgb
-from app.files.mesh_formats.reading import (
-    LoadedMeshes,
-    MeshFileError,
-    Report,
-    check_memory,
-    check_polygons,
-    check_positions,
-    check_text,
-    numbers_of,
-    triangulate_polygons,
-    whole_numbers_of,
-)
 from core.records.arrays import Floats
 from core.scene import Mesh
 
@@ -49,7 +38,7 @@ class OffLines:
 
     def vertex(self, words: list[str]) -> None:
         """Add a line of position, normal and colour, as far as the kind of file has them."""
-        values = numbers_of(words)
+        values = reading.numbers_of(words)
         color = 3 + self.normal_count
         least = color + 3 * self.has_colors
         if len(values) < least:
@@ -64,11 +53,11 @@ class OffLines:
 
     def face(self, words: list[str]) -> None:
         """Add a line of the number of corners, the corners, and maybe a colour."""
-        (size,) = whole_numbers_of(words[:1])
+        (size,) = reading.whole_numbers_of(words[:1])
         if size < 3 or len(words) < size + 1:
             raise ValueError(f"a face of {size} corners names {len(words) - 1}, it needs 3 or more")
         self.sizes.append(size)
-        self.corners += whole_numbers_of(words[1 : size + 1])
+        self.corners += reading.whole_numbers_of(words[1 : size + 1])
         self.colored_faces += len(words) > size + 2
 
     def linear_colors(self) -> Floats | None:
@@ -80,26 +69,26 @@ class OffLines:
         return np.asarray(colors)
 
 
-def read_off(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
+def read_off(path: Path, report: reading.Report, files: NamedFiles) -> reading.LoadedMeshes:
     """Read an OFF file, also with colours (COFF) and normals (NOFF) of vertices.
 
     Colours count as sRGB, from 0 to 255 or, where one has a point, from 0 to 1. Colours of faces are left out with a
     warning. Raises MeshFileError if a line cannot be read, the file is cut short, or a face names a vertex that is not
     there; OSError if ``path`` cannot be read.
     """
-    check_memory(path, path.stat().st_size * MEMORY_PER_BYTE)
-    check_text(path, "OFF")
+    reading.check_memory(path, path.stat().st_size * MEMORY_PER_BYTE)
+    reading.check_text(path, "OFF")
     found = read_lines(path, report)
     if not found.positions:
-        raise MeshFileError(f"{path.name} has no vertices")
+        raise reading.MeshFileError(f"{path.name} has no vertices")
     if not found.sizes:
-        raise MeshFileError(f"{path.name} has no faces")
+        raise reading.MeshFileError(f"{path.name} has no faces")
     report(None, "joining corners")
     positions, sizes = np.array(found.positions), np.array(found.sizes, np.int64)
     corners = np.array(found.corners, np.int64)
-    check_positions(path, positions)
-    check_polygons(path, sizes, corners, len(positions))
-    places, faces = triangulate_polygons(positions, corners, sizes, report)
+    reading.check_positions(path, positions)
+    reading.check_polygons(path, sizes, corners, len(positions))
+    places, faces = reading.triangulate_polygons(positions, corners, sizes, report)
     mesh = Mesh(
         positions=positions,
         triangles=corners[places],
@@ -109,18 +98,20 @@ def read_off(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
         name=path.stem,
     )
     colored = found.colored_faces
-    return LoadedMeshes((mesh,), (f"colours of {colored} faces are left out",) if colored else ())
+    return reading.LoadedMeshes((mesh,), (f"colours of {colored} faces are left out",) if colored else ())
 
 
-def read_lines(path: Path, report: Report) -> OffLines:
+def read_lines(path: Path, report: reading.Report) -> OffLines:
     """Read all lines of ``path``; a line that cannot be read raises MeshFileError with its number."""
     lines = content_lines(path, report)
     number, first = next(lines, (1, ""))
     kind = re.fullmatch(r"(ST)?(C?)(N?)OFF\s*([\d\s]*)", first)
     if kind is None:
-        raise MeshFileError(f"{path.name} is not an OFF file of text in 3D: it begins with {first[:20]!r}")
+        raise reading.MeshFileError(
+            f"{path.name} is not an OFF file of text in 3D: it begins with {first[:20]!r}"
+        )
     if kind[1]:
-        raise MeshFileError(f"{path.name} is a STOFF file; only OFF, COFF, NOFF and CNOFF are read")
+        raise reading.MeshFileError(f"{path.name} is a STOFF file; only OFF, COFF, NOFF and CNOFF are read")
     found = OffLines(normal_count=3 * bool(kind[3]), has_colors=bool(kind[2]))
     try:
         number, counts = (number, kind[4]) if kind[4] else next(lines)
@@ -132,9 +123,11 @@ def read_lines(path: Path, report: Report) -> OffLines:
             number, line = next(lines)
             found.face(line.split())
     except StopIteration:
-        raise MeshFileError(f"{path.name} is cut short: it has fewer lines than its header counts") from None
+        raise reading.MeshFileError(
+            f"{path.name} is cut short: it has fewer lines than its header counts"
+        ) from None
     except ValueError as problem:
-        raise MeshFileError(f"{path.name}, line {number}: {problem}") from problem
+        raise reading.MeshFileError(f"{path.name}, line {number}: {problem}") from problem
     return found
 
 
@@ -142,11 +135,11 @@ def counts_of(line: str) -> tuple[int, int]:
     """Return how many vertices and faces a line counts."""
     if len(line.split()) < 2:
         raise ValueError(f"the numbers of vertices and faces are needed, got {line}")
-    vertices, faces = whole_numbers_of(line.split()[:2])
+    vertices, faces = reading.whole_numbers_of(line.split()[:2])
     return vertices, faces
 
 
-def content_lines(path: Path, report: Report) -> Iterator[tuple[int, str]]:
+def content_lines(path: Path, report: reading.Report) -> Iterator[tuple[int, str]]:
     """Yield number and text of every line that is more than a comment."""
     size, done = path.stat().st_size, 0
     with open_text_input(path) as file:

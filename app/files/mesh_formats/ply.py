@@ -6,20 +6,9 @@ from pathlib import Path
 import numpy as np
 
 from app.files.file_access import NamedFileError, NamedFiles, left_out, open_input
+from app.files.mesh_formats import reading
 from app.files.mesh_formats.images import TextureReader, linear_from_srgb
 from app.files.mesh_formats.ply_body import Column, Element, Property, Rows, read_body
-from app.files.mesh_formats.reading import (
-    LoadedMeshes,
-    MeshFileError,
-    Report,
-    Wires,
-    check_memory,
-    check_polygons,
-    check_positions,
-    load_wires,
-    share_vertices,
-    triangulate_polygons,
-)
 from core.records.arrays import Floats
 from core.scene import Mesh, Texture
 from core.transform.vertex_stage import vertex_normals
@@ -57,7 +46,7 @@ def read_header(path: Path) -> Header:
     encoding = texture = ""
     with open_input(path) as file:
         if file.readline(64).strip() != b"ply":
-            raise MeshFileError(f"{path.name} is not a PLY file: it does not begin with the line ply")
+            raise reading.MeshFileError(f"{path.name} is not a PLY file: it does not begin with the line ply")
         for line in iter(lambda: file.readline(65536), b""):
             text = line.decode("utf-8", errors="replace").strip()
             words = text.split()
@@ -78,13 +67,13 @@ def read_header(path: Path) -> Header:
                 elif words[:2] == ["comment", "TextureFile"]:
                     texture = text.split("TextureFile", 1)[1].strip()
             except (IndexError, KeyError, ValueError) as problem:
-                raise MeshFileError(
+                raise reading.MeshFileError(
                     f"{path.name} has a header line that cannot be read: {text[:80]}"
                 ) from problem
-    raise MeshFileError(f"{path.name} is cut short: its header has no end")
+    raise reading.MeshFileError(f"{path.name} is cut short: its header has no end")
 
 
-def read_ply(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
+def read_ply(path: Path, report: reading.Report, files: NamedFiles) -> reading.LoadedMeshes:
     """Read a PLY file: text or binary of either byte order, polygons of any size.
 
     Positions, normals, colours of vertices or faces, and texture coordinates of vertices or corners are read. Colours
@@ -93,11 +82,11 @@ def read_ply(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     ``path`` cannot be read.
     """
     header = read_header(path)
-    check_memory(path, path.stat().st_size * MEMORY_PER_BYTE)
+    reading.check_memory(path, path.stat().st_size * MEMORY_PER_BYTE)
     body = read_body(path, header.elements, header.encoding, header.size, report)
     vertex, face = body.get("vertex", Rows(0, {}, {})), body.get("face", Rows(0, {}, {}))
     if not vertex.count or any(axis not in vertex.columns for axis in "xyz"):
-        raise MeshFileError(f"{path.name} has no vertices")
+        raise reading.MeshFileError(f"{path.name} has no vertices")
     corners = face.lists.get("vertex_indices", face.lists.get("vertex_index"))
     if corners is None or not len(corners.sizes):
         return read_wires(path, vertex, body.get("edge", Rows(0, {}, {})))
@@ -105,12 +94,12 @@ def read_ply(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     return build_mesh(path, header, vertex, face, corners, TextureReader(files), report)
 
 
-def read_wires(path: Path, vertex: Rows, edge: Rows) -> LoadedMeshes:
+def read_wires(path: Path, vertex: Rows, edge: Rows) -> reading.LoadedMeshes:
     """Return the edges of a file without faces as segments, or else its vertices as points."""
     index = np.arange(vertex.count)[:, None]
     if edge.count and all(name in edge.columns for name in ("vertex1", "vertex2")):
         index = np.stack([edge.columns[name].astype(np.int64) for name in ("vertex1", "vertex2")], axis=1)
-    return load_wires(path, Wires(stacked(vertex, "xyz"), index, read_colors(vertex)), [])
+    return reading.load_wires(path, reading.Wires(stacked(vertex, "xyz"), index, read_colors(vertex)), [])
 
 
 def build_mesh(
@@ -120,14 +109,14 @@ def build_mesh(
     face: Rows,
     polygons: Column,
     textures: TextureReader,
-    report: Report,
-) -> LoadedMeshes:
+    report: reading.Report,
+) -> reading.LoadedMeshes:
     """Make the one mesh of a PLY file."""
     positions = stacked(vertex, "xyz")
-    check_positions(path, positions)
-    check_polygons(path, polygons.sizes, polygons.items, len(positions))
+    reading.check_positions(path, positions)
+    reading.check_polygons(path, polygons.sizes, polygons.items, len(positions))
     indices = polygons.items.astype(np.int64)
-    corners, faces = triangulate_polygons(positions, indices, polygons.sizes, report)
+    corners, faces = reading.triangulate_polygons(positions, indices, polygons.sizes, report)
     triangles = indices[corners]
     warnings: list[str] = []
     normals = whole(vertex, ("nx", "ny", "nz"), warnings)
@@ -149,7 +138,7 @@ def build_mesh(
     if len(keys) > 1:
         if normals is None:
             normals = vertex_normals(positions, triangles)
-        triangles, sources = share_vertices(*keys)
+        triangles, sources = reading.share_vertices(*keys)
         v = sources[0]
         positions, normals = positions[v], normals[v]
         uvs = corner_uvs[sources[1]] if corner_uvs is not None else None if uvs is None else uvs[v]
@@ -167,7 +156,7 @@ def build_mesh(
         faces,
         name=path.stem,
     )
-    return LoadedMeshes((mesh,), tuple(warnings))
+    return reading.LoadedMeshes((mesh,), tuple(warnings))
 
 
 def whole(rows: Rows, names: tuple[str, ...], warnings: list[str]) -> Floats | None:

@@ -5,16 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from app.files.file_access import NamedFiles, open_input
-from app.files.mesh_formats.reading import (
-    LoadedMeshes,
-    MeshFileError,
-    Report,
-    check_memory,
-    check_positions,
-    first_bytes,
-    load_with_trimesh,
-    translated_errors,
-)
+from app.files.mesh_formats import reading
 from core.scene import Mesh
 
 HEADER = 84
@@ -30,7 +21,7 @@ MEMORY_PER_BYTE = 10
 """Bytes of memory that a byte of a text file takes at most while it is opened (measured)."""
 
 
-def read_stl(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
+def read_stl(path: Path, report: reading.Report, files: NamedFiles) -> reading.LoadedMeshes:
     """Read an STL file; each of its solids is a mesh.
 
     The triangles share no vertices and keep no normals of the file, so that each is shaded by its own plane. Raises
@@ -40,8 +31,8 @@ def read_stl(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     report(None, "reading triangles")
     if is_binary:
         return read_binary(path, count)
-    with translated_errors(path, "some of its triangles are no three corners of three numbers"):
-        scene = load_with_trimesh(path)
+    with reading.translated_errors(path, "some of its triangles are no three corners of three numbers"):
+        scene = reading.load_with_trimesh(path)
     report(None, "checking")
     meshes = [
         Mesh(
@@ -54,18 +45,18 @@ def read_stl(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     ]
     found = sum(len(mesh.triangles) for mesh in meshes)
     if found != count:
-        raise MeshFileError(
+        raise reading.MeshFileError(
             f"{path.name} is cut short or broken: {found} of its {count} triangles can be read"
         )
     if not meshes:
-        raise MeshFileError(f"{path.name} has no faces")
-    return LoadedMeshes(tuple(meshes))
+        raise reading.MeshFileError(f"{path.name} has no faces")
+    return reading.LoadedMeshes(tuple(meshes))
 
 
-def read_binary(path: Path, count: int) -> LoadedMeshes:
+def read_binary(path: Path, count: int) -> reading.LoadedMeshes:
     """Read the ``count`` triangles of a binary file."""
     if not count:
-        raise MeshFileError(f"{path.name} has no faces")
+        raise reading.MeshFileError(f"{path.name} has no faces")
     row = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
     with open_input(path) as file:
         found = np.fromfile(file, row, count, offset=HEADER)
@@ -73,26 +64,28 @@ def read_binary(path: Path, count: int) -> LoadedMeshes:
     with np.errstate(invalid="ignore"):
         positions = found["corners"].astype(np.float64).reshape(-1, 3)
     del found
-    check_positions(path, positions)
+    reading.check_positions(path, positions)
     positions.flags.writeable = False
     triangles = np.arange(len(positions)).reshape(-1, 3)
-    return LoadedMeshes((Mesh(positions=positions, triangles=triangles, name=path.stem),))
+    return reading.LoadedMeshes((Mesh(positions=positions, triangles=triangles, name=path.stem),))
 
 
 def check_layout(path: Path) -> tuple[int, bool]:
     """Return the number of triangles and whether ``path`` is binary, or raise MeshFileError if it is no STL file."""
-    size, head = path.stat().st_size, first_bytes(path, HEADER)
+    size, head = path.stat().st_size, reading.first_bytes(path, HEADER)
     count = int.from_bytes(head[80:84], "little")
     if len(head) == HEADER and size == HEADER + TRIANGLE * count:
-        check_memory(path, count * MEMORY_PER_TRIANGLE)
+        reading.check_memory(path, count * MEMORY_PER_TRIANGLE)
         return count, True
     if head.lstrip()[:5].lower() == b"solid" and b"\0" not in head:
-        check_memory(path, size * MEMORY_PER_BYTE)
+        reading.check_memory(path, size * MEMORY_PER_BYTE)
         with open_input(path) as file:
             return file.read().lower().count(b"outer loop"), False
     if HEADER <= size < HEADER + TRIANGLE * count and size > HEADER + TRIANGLE * count // 20:
         there = (size - HEADER) // TRIANGLE
-        raise MeshFileError(f"{path.name} is cut short: it counts {count} triangles and ends after {there}")
-    raise MeshFileError(
+        raise reading.MeshFileError(
+            f"{path.name} is cut short: it counts {count} triangles and ends after {there}"
+        )
+    raise reading.MeshFileError(
         f"{path.name} is not an STL file: it is not text, and its length does not match its number of triangles"
     )

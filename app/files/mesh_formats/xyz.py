@@ -6,17 +6,8 @@ from pathlib import Path
 import numpy as np
 
 from app.files.file_access import NamedFiles, open_text_input
+from app.files.mesh_formats import reading
 from app.files.mesh_formats.images import linear_from_srgb
-from app.files.mesh_formats.reading import (
-    LoadedMeshes,
-    MeshFileError,
-    Report,
-    Wires,
-    check_memory,
-    check_text,
-    load_wires,
-    numbers_of,
-)
 
 MEMORY_PER_BYTE = 60
 """Bytes of memory that a byte of an XYZ file takes at most while it is opened (measured)."""
@@ -37,26 +28,26 @@ class Lines:
                     yield self.text
 
 
-def read_xyz(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
+def read_xyz(path: Path, report: reading.Report, files: NamedFiles) -> reading.LoadedMeshes:
     """Read an XYZ file: x, y, z of each point, then red, green, blue and alpha from 0 to 255 where it has them.
 
     Commas count as spaces, and what follows a # is passed over. Further columns that are no colours are left out with a
     warning. Raises MeshFileError for the first line that does not have numbers as the first one has, at least three, or
     if there are no points; OSError if ``path`` cannot be read.
     """
-    check_memory(path, path.stat().st_size * MEMORY_PER_BYTE)
-    check_text(path, "XYZ")
+    reading.check_memory(path, path.stat().st_size * MEMORY_PER_BYTE)
+    reading.check_text(path, "XYZ")
     report(None, "reading lines")
     lines = Lines(path)
     first = next(iter(lines), "").split()
     if not first:
-        raise MeshFileError(f"{path.name} has no points")
+        raise reading.MeshFileError(f"{path.name} has no points")
     width = max(len(first), 3)
     try:
-        numbers_of([*first, "nothing"][:width])
+        reading.numbers_of([*first, "nothing"][:width])
         rows = np.loadtxt(lines, ndmin=2)
     except ValueError as problem:
-        raise MeshFileError(
+        raise reading.MeshFileError(
             f"{path.name}, line {lines.number}: expected {width} numbers, got {lines.text[:40]}"
         ) from problem
     more, colors, warnings = rows[:, 3:], None, []
@@ -66,4 +57,6 @@ def read_xyz(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
         colors[:, :3] = linear_from_srgb(colors[:, :3])
     elif width > 3:
         warnings.append(f"columns 4 to {width} are not colours from 0 to 255; they are left out")
-    return load_wires(path, Wires(rows[:, :3], np.arange(len(rows))[:, None], colors), warnings)
+    return reading.load_wires(
+        path, reading.Wires(rows[:, :3], np.arange(len(rows))[:, None], colors), warnings
+    )

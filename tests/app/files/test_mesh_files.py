@@ -136,7 +136,7 @@ def test_a_file_above_the_limit_of_memory_is_refused_before_it_is_read(tmp_path,
 
 def test_a_file_of_too_many_meshes_is_refused_before_they_are_made(tmp_path, monkeypatch):
     monkeypatch.setattr(reading, "MOST_MESHES", 5)
-    monkeypatch.setattr(obj, "share_vertices", lambda *parts: pytest.fail("a mesh is made"))
+    monkeypatch.setattr(reading, "share_vertices", lambda *parts: pytest.fail("a mesh is made"))
     path = write(tmp_path / "a.obj", SQUARE + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n" * 3)
     with pytest.raises(MeshFileError, match=r"a\.obj has 6 runs of faces with one material, and at most 5"):
         load_meshes(path)
@@ -154,7 +154,7 @@ def test_materials_that_no_face_names_are_passed_over(tmp_path):
 
 
 def test_the_limit_lets_two_million_triangles_in():
-    from app.files.mesh_formats import obj, off, ply, stl
+    from app.files.mesh_formats import off, ply, stl
 
     # Bytes of a triangle and half a vertex, as exporters write them at this size.
     assert 2e6 * 120 * obj.MEMORY_PER_BYTE < reading.MEMORY_LIMIT
