@@ -6,12 +6,6 @@ from lessons.exercises.question import Draft, template
 from lessons.mistakes.shelf import RULES
 
 
-def _wrong_is_another(name: str, *arguments: object) -> None:
-    """Draw again where the mistake gives the right answer."""
-    rule = RULES[name]
-    reject(rule.right(*arguments) == rule.wrong(*arguments))
-
-
 @template("box-outside-plane", 1, "A box and a plane", "cull", 2)
 def draw_box_and_plane(draws: Draws) -> Draft:
     """The distance that decides whether a box is outside of a plane."""
@@ -21,7 +15,6 @@ def draw_box_and_plane(draws: Draws) -> Draft:
     offset = draws.whole(-20, 20)
     arguments = (normal, offset, (low, high))
     reject(abs(RULES["nearest-corner-asked"].right(*arguments)[0]) < 30)
-    _wrong_is_another("nearest-corner-asked", *arguments)
     given = (
         f"Box: x from {low[0]} to {high[0]}, y from {low[1]} to {high[1]}\n"
         f"Plane: distance d = {normal[0]} x {normal[1]:+d} y {offset:+d}"
@@ -65,7 +58,6 @@ def draw_first_cut(draws: Draws) -> Draft:
     count = draws.whole(5, 9)
     centers = sorted({draws.whole(0, 12) for _ in range(count)} | {draws.whole(40, 90)})
     reject(len(centers) < 5)
-    _wrong_is_another("space-halved", centers)
     asked = f"""These are the centres of {len(centers)} boxes along the axis of their widest spread. A bounding volume
         hierarchy is cut in the middle of the objects. How many get into the first part, and how many into the
         second? The first one is the smaller where they differ.
@@ -83,7 +75,6 @@ def draw_entries(draws: Draws) -> Draft:
     middle = draws.whole(8, 12)
     spans = [(low, low + draws.whole(1, 6)) for low in (draws.whole(0, 18) for _ in range(5))]
     reject(any(middle in span for span in spans))
-    _wrong_is_another("octant-of-centre", spans, middle)
     given = "\n".join(f"Object {k}: from {low} to {high}" for k, (low, high) in enumerate(spans))
     asked = f"""A cell of an octree is halved along x at {middle}. How many of these objects does the lower half list,
         and how many the upper one?
@@ -100,7 +91,6 @@ def draw_ray_and_box(draws: Draws) -> Draft:
     low = [draws.whole(1, 6) for _ in range(2)]
     high = [coordinate + draws.whole(1, 6) for coordinate in low]
     arguments = ((0, 0), direction, (low, high))
-    _wrong_is_another("slabs-joined", *arguments)
     given = (
         f"Ray: x = {direction[0]} t, y = {direction[1]} t\n"
         f"Box: x from {low[0]} to {high[0]}, y from {low[1]} to {high[1]}"
@@ -120,7 +110,6 @@ def draw_nearest(draws: Draws) -> Draft:
     reject(len(starts) < 3)
     boxes = [(start, start + draws.whole(1, 12)) for start in starts]
     reject(len({hit for _, hit in boxes}) < len(boxes))
-    _wrong_is_another("nearest-box-wins", boxes)
     rule = RULES["nearest-box-wins"]
     given = "\n".join(
         f"Box {k}: begins at t = {start}, its nearest hit at t = {hit}"

@@ -3,10 +3,9 @@
 from fractions import Fraction
 
 from lessons.exercises.drafting import by_rule, listed
-from lessons.exercises.numbers import Draws, reject
+from lessons.exercises.numbers import Draws
 from lessons.exercises.question import Draft, template
-from lessons.mistakes.hit_lists import HALF, Hit, listed_and_blended, resolved
-from lessons.mistakes.shelf import RULES
+from lessons.mistakes.hit_lists import HALF, Hit
 
 
 @template("resolve-a-list", 1, "Resolve a list of hits", "blend", 3)
@@ -17,8 +16,6 @@ def draw_resolved(draws: Draws) -> Draft:
     hits = tuple(Hit(depth, grey, HALF) for depth, grey in zip(depths, greys, strict=True))
     background = draws.item((0, 16, 48, 96, 160))
     names = ("list-not-sorted", "sorted-farthest-first", "own-alpha-for-share")
-    results = [resolved(hits, background), *(RULES[name].wrong(hits, background) for name in names)]
-    reject(len(set(results)) < 4)
     front = min(hits)
     given = listed("Hit {}: depth {}, grey {}, alpha 1/2", range(1, 4), depths, greys)
     asked = f"""A pixel has this list of hits, as they were appended. Smaller depths are nearer. The background is of
@@ -37,8 +34,6 @@ def draw_listed(draws: Draws) -> Draft:
     depths, opaque = draws.shuffled(range(1, 10))[:count], draws.whole(0, count - 1)
     hits = tuple(Hit(depth, 0, Fraction(1) if k == opaque else HALF) for k, depth in enumerate(depths))
     names = ("behind-opaque-blended", "opaque-in-drawing-order", "only-nearer-listed")
-    results = [listed_and_blended(hits), *(RULES[name].wrong(hits) for name in names)]
-    reject(len(set(results)) < 4)
     alphas = ["opaque" if hit.alpha == 1 else "glass" for hit in hits]
     given = listed("Hit {}: depth {}, {}", range(1, count + 1), depths, alphas)
     asked = f"""These hits of one pixel arrive in this order; smaller depths are nearer, and all are nearer than what

@@ -79,7 +79,7 @@ def draw_sort(draws: Draws) -> Draft:
     corners[which] = (*corners[which][:2], -draws.whole(1, 2))
     rule = RULES["sorted-after-division"]
     order, after = (find(corners, near, far) for find in (rule.right, rule.wrong))
-    reject(len({sum(each) for each in corners}) < len(names) or order == after)
+    reject(len({sum(each) for each in corners}) < len(names))
     given = listed("{}: distances {}", names, corners)
     asked = f"""A painter's algorithm sorts by the mean distance of the corners along the view (w), which is
         negative behind the eye. In which order are these triangles painted, first to last?

@@ -1,10 +1,9 @@
 """Scan-line visible surfaces: one row, its spans, and what is compared at their ends."""
 
 from lessons.exercises.drafting import by_rule, listed
-from lessons.exercises.numbers import Draws, reject
+from lessons.exercises.numbers import Draws
 from lessons.exercises.question import Draft, template
-from lessons.mistakes.scan_lines import HandSpan, pixels_seen
-from lessons.mistakes.shelf import RULES
+from lessons.mistakes.scan_lines import HandSpan
 
 NAMES = tuple("ABC")
 
@@ -27,8 +26,6 @@ def draw_row(draws: Draws) -> Draft:
     second = HandSpan(left, left + length, first.depth_at(left) + draws.whole(1, 3), -2)
     spans = (first, second)
     names = ("nearest-at-left", "nearest-at-own-start")
-    results = [pixels_seen(spans), *(RULES[name].wrong(spans) for name in names)]
-    reject(len(set(results)) < 3)
     asked = f"""The spans of two surfaces in one row, with their depths: smaller is nearer, and of equal depths A
         stays. How many pixels of the row show A, and how many B?
         Hint: Between which ends are both live?
@@ -48,8 +45,6 @@ def draw_work(draws: Draws) -> Draft:
         HandSpan(first, end - draws.whole(1, 3), 2, 0),
     )
     names = ("closed-spans", "depth-at-each-pixel")
-    results = [RULES[names[0]].right(spans), *(RULES[name].wrong(spans) for name in names)]
-    reject(len(set(results)) < 3)
     asked = f"""Three spans of one row. Their ends cut it into segments. At the first and at the last centre of a
         segment, the depth of every live surface is computed; where one alone is live, none is. C is nearest
         wherever it is, so nothing is halved. How many segments with a live surface are there, and how many depths?
