@@ -12,18 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from core.antialiasing import pixel_pieces
 from core.antialiasing.exact_area import DrawnLayer, PiecePainter
-from core.antialiasing.pixel_pieces import (
-    ON_LINE,
-    Pieces,
-    area_of,
-    cut_polygon,
-    join_pieces,
-    polygon_area,
-    shown_areas,
-    split_pieces,
-    whole_pixels,
-)
 from core.records.arrays import Flags, Floats, Integers
 from core.records.listing import RETURN, Columns, Labels, Operation, listing
 from core.trace.stage_trace import BufferTrack, InsertedRows, StageTrace, empty_like, insert_rows
@@ -109,7 +99,9 @@ def cuts_of(
     parts = []
     for number, layer in enumerate(layers):
         count, there = len(layer.fragment), layer.there
-        areas, shown = _by_primitive(there.pieces.number, area_of(there.pieces), there.primitive, count)
+        areas, shown = _by_primitive(
+            there.pieces.number, pixel_pieces.area_of(there.pieces), there.primitive, count
+        )
         new = squares.primitive.take(layer.fragment)
         fragment.append(layer.fragment)
         place.append(pixel[:count])
@@ -206,19 +198,19 @@ ColumnsOfPairs = tuple[Integers, dict[str, NDArray[Any]]]
 def _cut_squares(cuts: PixelCuts) -> list[ColumnsOfPairs]:
     """Return what the three edges cut off, one after another, and what is left of the squares in the end."""
     count = len(cuts.place)
-    pieces = whole_pixels(np.arange(count))
+    pieces = pixel_pieces.whole_pixels(np.arange(count))
     parts: list[ColumnsOfPairs] = []
     for edge in range(3):
         is_cut = ~cuts.is_whole.take(pieces.number)
         whole, cut = pieces.select(~is_cut), pieces.select(is_cut)
         a, b, value = (part[cut.number, edge] for part in cuts.edge_parts)
-        left, _ = split_pieces(cut, a, b, value)
+        left, _ = pixel_pieces.split_pieces(cut, a, b, value)
         before, after = polygons_of(cut, count), polygons_of(left, count)
         parts.append((cut.number, _of_cut(edge, (a, b, value), before[cut.number], after[cut.number])))
-        joined = join_pieces([whole, left])
+        joined = pixel_pieces.join_pieces([whole, left])
         pieces = joined.take(np.argsort(joined.number, kind="stable"))
     area = np.zeros(count)
-    area[pieces.number] = area_of(pieces)
+    area[pieces.number] = pixel_pieces.area_of(pieces)
     of_piece: dict[str, NDArray[Any]] = {
         "polygon": polygons_of(pieces, count),
         "piece_area": area,
@@ -254,9 +246,9 @@ def _inserted(cuts: PixelCuts, found: StageTrace) -> InsertedRows:
         operations=OPERATIONS,
         columns=columns,
         listings={
-            "cut": listing(cut_polygon),
-            "piece": listing(shown_areas),
-            "piece.area": listing(polygon_area),
+            "cut": listing(pixel_pieces.cut_polygon),
+            "piece": listing(pixel_pieces.shown_areas),
+            "piece.area": listing(pixel_pieces.polygon_area),
         },
         pixel=found.pixel[place],
     )
@@ -268,7 +260,7 @@ def _of_cut(
     """Return the columns of the rows (R,) in which an edge cuts polygons (R, V, 2)."""
     a, b, value = line
     distance = a[:, None] * before[..., 0] + (b[:, None] * before[..., 1] + value[:, None])
-    is_on = np.abs(distance) <= ON_LINE * (np.abs(a) + np.abs(b))[:, None]
+    is_on = np.abs(distance) <= pixel_pieces.ON_LINE * (np.abs(a) + np.abs(b))[:, None]
     return {
         "edge": np.full(len(a), edge),
         "a": a,
@@ -286,7 +278,7 @@ def _joined_column(name: str, parts: list[ColumnsOfPairs]) -> NDArray[Any]:
     return np.concatenate([columns.get(name, empty_like(of_any, len(pair))) for pair, columns in parts])
 
 
-def polygons_of(pieces: Pieces, count: int) -> Floats:
+def polygons_of(pieces: pixel_pieces.Pieces, count: int) -> Floats:
     """Return the polygon of every number below ``count``, (count, V, 2) float64; NaN behind its last corner."""
     polygon = np.full((count, MOST_CORNERS, 2), np.nan)
     room = min(pieces.corner.shape[1], MOST_CORNERS)

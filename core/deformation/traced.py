@@ -6,19 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from core.deformation import skinning
 from core.deformation.deform import blend_shapes, blended_shape, rest_normals
-from core.deformation.skinning import (
-    added_quaternion,
-    blended_component,
-    blended_matrices,
-    cross,
-    dot,
-    joints_of,
-    moved_by_quaternion,
-    quaternion_sums,
-    turned_normal,
-    where_bones_take,
-)
 from core.methods import is_registered
 from core.records.arrays import Floats, Integers
 from core.records.deformations import Blend, Skin
@@ -56,10 +45,10 @@ KINDS = tuple(OPERATIONS)
 LISTINGS: dict[str, Callable[..., Any]] = {
     "blend": blended_shape,
     "bone": transform_component,
-    "skin": blended_component,
-    "skin.normal": turned_normal,
-    "quaternion": added_quaternion,
-    "move": moved_by_quaternion,
+    "skin": skinning.blended_component,
+    "skin.normal": skinning.turned_normal,
+    "quaternion": skinning.added_quaternion,
+    "move": skinning.moved_by_quaternion,
 }
 Slot = tuple[str, Integers, dict[str, NDArray[Any]]]
 """A kind of row, which of the vertices (E,) have it, and columns (E, ...) of these."""
@@ -101,12 +90,12 @@ def _slots(source: TraceSource, mesh: Mesh, own: Integers) -> Iterator[Slot]:
             yield "blend", every, columns | {"before": _point(places[k]), "after": _point(places[k + 1])}
         return
     assert isinstance(of_mesh, Skin)
-    weights, joints = of_mesh.weights[own], joints_of(of_mesh)
+    weights, joints = of_mesh.weights[own], skinning.joints_of(of_mesh)
     bones = {"weights": weights, "bones": (weights > 0).sum(axis=1)}
     if is_registered(source.settings.skinning, "dual-quaternion"):
         yield from _quaternion_slots(weights, joints, rest, bones)
         return
-    moved = np.stack(list(where_bones_take(rest, joints.matrices)), axis=1)
+    moved = np.stack(list(skinning.where_bones_take(rest, joints.matrices)), axis=1)
     for joint in range(of_mesh.joint_count):
         has = np.flatnonzero(weights[:, joint] > 0)
         columns = {
@@ -121,7 +110,7 @@ def _slots(source: TraceSource, mesh: Mesh, own: Integers) -> Iterator[Slot]:
     made |= {
         "before": _point(rest),
         "normal": mesh.normals[own],
-        "blended": blended_matrices(weights, joints.matrices),
+        "blended": skinning.blended_matrices(weights, joints.matrices),
     }
     yield "skin", every, bones | made
 
@@ -130,7 +119,7 @@ def _quaternion_slots(weights: Floats, joints: Any, rest: Floats, bones: dict[st
     """Yield the rows of dual quaternions."""
     every = np.arange(len(rest))
     real = dual = np.zeros((len(rest), 4))
-    for joint, (side, sum_real, sum_dual) in enumerate(quaternion_sums(weights, joints)):
+    for joint, (side, sum_real, sum_dual) in enumerate(skinning.quaternion_sums(weights, joints)):
         has = np.flatnonzero(weights[:, joint] > 0)
         columns = {
             "bone": np.full(len(has), joint),
@@ -143,11 +132,11 @@ def _quaternion_slots(weights: Floats, joints: Any, rest: Floats, bones: dict[st
         }
         real, dual = sum_real, sum_dual
         yield "quaternion", has, columns | {"sum_real": real[has], "sum_dual": dual[has]}
-    length = np.sqrt(dot(real, real))
+    length = np.sqrt(skinning.dot(real, real))
     unit_real, unit_dual = real / length[:, None], dual / length[:, None]
     w, v, e, u = unit_real[:, :1], unit_real[:, 1:], unit_dual[:, :1], unit_dual[:, 1:]
-    turned = rest + 2 * cross(v, cross(v, rest) + w * rest)
-    moved = turned + 2 * (w * u - e * v + cross(v, u))
+    turned = rest + 2 * skinning.cross(v, skinning.cross(v, rest) + w * rest)
+    moved = turned + 2 * (w * u - e * v + skinning.cross(v, u))
     made = {
         "sum_real": real,
         "sum_dual": dual,

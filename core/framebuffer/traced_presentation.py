@@ -6,19 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.framebuffer.presentation import (
-    SCAN,
-    SWAP,
-    WRITE,
-    Buffering,
-    Events,
-    Schedule,
-    blank_for,
-    drawn_time,
-    events,
-    picture_read,
-    swap_at_once,
-)
+from core.framebuffer import presentation
 from core.records.arrays import Integers
 from core.records.listing import Listing, Operation, listing
 from core.records.steps import Level, RowOrder
@@ -67,16 +55,18 @@ def moved_pictures(picture: NDArray[Any], count: int) -> NDArray[Any]:
 def with_presentation(found: StageTrace, source: TraceSource) -> StageTrace:
     """Return the trace of resolving with the rows of the presentation behind it, where one is chosen."""
     settings = source.settings
-    buffering: Buffering = resolve(settings).method("presentation").function()
+    buffering: presentation.Buffering = resolve(settings).method("presentation").function()
     if not buffering.buffer_count or source.scene.corner_count == 0:
         return found
     display = next(track for track in found.buffers if track.name == "display")
     height, width = display.initial.shape[:2]
     flush = resolve(settings).method("flush").function()
-    happens, times = events(buffering, flush, height, settings.drawing_time, settings.refresh_time)
+    happens, times = presentation.events(
+        buffering, flush, height, settings.drawing_time, settings.refresh_time
+    )
     rows, count = found.steps.row_count, len(happens.what)
     kind = happens.what + 1
-    kind[(happens.what == WRITE) & (not flush.waits_for_picture)] = 0
+    kind[(happens.what == presentation.WRITE) & (not flush.waits_for_picture)] = 0
     buffer = happens.picture % buffering.buffer_count
     later = np.append(times.begun[1:], times.ready[-1])
     drawn = happens.line + 1
@@ -124,19 +114,19 @@ def with_presentation(found: StageTrace, source: TraceSource) -> StageTrace:
     )
 
 
-def _above(happens: Events) -> Integers:
+def _above(happens: presentation.Events) -> Integers:
     """Return (E,) the picture that the row above shows in the same refresh; -1: there is none."""
     above = np.full(len(happens.what), -1)
-    scans = np.flatnonzero(happens.what == SCAN)
+    scans = np.flatnonzero(happens.what == presentation.SCAN)
     is_same = happens.refresh[scans[1:]] == happens.refresh[scans[:-1]]
     above[scans[1:][is_same]] = happens.picture[scans[:-1][is_same]]
     return above
 
 
-def _listings(source: TraceSource, buffering: Buffering) -> dict[str, Listing]:
-    swap = listing(blank_for if buffering.waits_for_blank else swap_at_once)
-    transfer = listing(resolve(source.settings).method("flush").listing or drawn_time)
-    written = listing(drawn_time)
+def _listings(source: TraceSource, buffering: presentation.Buffering) -> dict[str, Listing]:
+    swap = listing(presentation.blank_for if buffering.waits_for_blank else presentation.swap_at_once)
+    transfer = listing(resolve(source.settings).method("flush").listing or presentation.drawn_time)
+    written = listing(presentation.drawn_time)
     return {
         "written": written,
         "flushed": written,
@@ -144,17 +134,17 @@ def _listings(source: TraceSource, buffering: Buffering) -> dict[str, Listing]:
         "flushed.transfer": transfer,
         "wait": swap,
         "swap": swap,
-        "scan": listing(picture_read),
+        "scan": listing(presentation.picture_read),
     }
 
 
 def _tracks(
     joined: StageTrace,
-    happens: Events,
-    times: Schedule,
+    happens: presentation.Events,
+    times: presentation.Schedule,
     pictures: NDArray[Any],
     first: int,
-    buffering: Buffering,
+    buffering: presentation.Buffering,
     is_whole: bool,
 ) -> tuple[BufferTrack, ...]:
     """Return the buffer that is drawn into, those of the stage, every buffer by itself, and the screen.
@@ -179,19 +169,19 @@ def _tracks(
         zip(happens.what.tolist(), happens.line.tolist(), happens.picture.tolist(), strict=True)
     ):
         row, at = first + event, height - 1 - line
-        begun = number + (what == SWAP)
-        if what in (WRITE, SWAP) and begun > seen and buffers > 1:
+        begun = number + (what == presentation.SWAP)
+        if what in (presentation.WRITE, presentation.SWAP) and begun > seen and buffers > 1:
             # The renderer turns to another buffer, which holds an older picture, or nothing: at the latest when
             # its own becomes the front buffer.
             older, seen = begun - buffers, begun
             kept = np.zeros_like(pictures[0]) if older < 0 else pictures[older]
             drawn.append((row, whole, kept.reshape(-1, 4)))
-        if what == WRITE:
+        if what == presentation.WRITE:
             places = whole if is_whole else at * width + np.arange(width)
             written = row, places, pictures[number].reshape(-1, 4)[places]
             writes[number % buffers].append(written)
             drawn.append(written)
-        elif what == SCAN:
+        elif what == presentation.SCAN:
             places = at * width + np.arange(width)
             scanned.append((row, places, pictures[number].reshape(-1, 4)[places]))
 

@@ -8,15 +8,7 @@ import numpy as np
 from core.interpolation.barycentric import WAYS, numbers_at
 from core.interpolation.corrected_affine import place_anchors
 from core.interpolation.interpolation import numerators, perspective
-from core.lines.wireframe import (
-    LineFragments,
-    interpolate_affine_along,
-    interpolate_along,
-    inverse_w_parts,
-    line_parameter,
-    take_point_value,
-    values_at_ends,
-)
+from core.lines import wireframe
 from core.methods import table
 from core.records.arrays import Floats, Integers
 from core.records.listing import Operation, listing
@@ -27,15 +19,15 @@ from core.trace.stage_trace import BufferTrack, StageTrace
 
 ALONG_LINES: dict[str, tuple[Callable[..., Any], tuple[Operation, ...]]] = {
     "line-perspective": (
-        interpolate_along,
+        wireframe.interpolate_along,
         (
             Operation("parts", "parts", {"parts": "start end"}, ("t", "end_w")),
             Operation("total", "total", ("total",), ("inverse_w",)),
             Operation("weight", "weight", ("s",)),
         ),
     ),
-    "line-affine": (interpolate_affine_along, (Operation("weight", "weight", ("s",), ("t",)),)),
-    "point": (take_point_value, ()),
+    "line-affine": (wireframe.interpolate_affine_along, (Operation("weight", "weight", ("s",), ("t",)),)),
+    "point": (wireframe.take_point_value, ()),
 }
 """Kind of row of lines and points to its listing and to what it does before the values."""
 
@@ -82,7 +74,7 @@ def _outline_kind(source: TraceSource) -> str:
     if source.scene.corner_count == 1:
         return "point"
     form = interpolation_form(source.settings.interpolation)
-    if not isinstance(source.fragments, LineFragments) or form == "flat":
+    if not isinstance(source.fragments, wireframe.LineFragments) or form == "flat":
         return ""
     # Lines have no rows of pixels to be corrected along.
     return "line-affine" if form == "affine" else "line-perspective"
@@ -166,11 +158,11 @@ def _along_lines(source: TraceSource, mode: str) -> dict[str, np.ndarray]:
     """Return the same of fragments (F,) on the segments of a wireframe, and the values (F, 2, K) at their ends."""
     outlines, fragments = source.geometry.outlines, source.fragments
     assert outlines is not None
-    assert isinstance(fragments, LineFragments)
+    assert isinstance(fragments, wireframe.LineFragments)
     center = source.raster.center
-    t = line_parameter(outlines, fragments, center)
-    start, end = inverse_w_parts(outlines, fragments, center)
-    at_ends = values_at_ends(outlines, source.geometry.primitives.varyings, mode)
+    t = wireframe.line_parameter(outlines, fragments, center)
+    start, end = wireframe.inverse_w_parts(outlines, fragments, center)
+    at_ends = wireframe.values_at_ends(outlines, source.geometry.primitives.varyings, mode)
     differences = _differences(fragments.segment, t, source.interpolated[1]) if mode == "affine" else {}
     return differences | {
         "segment": fragments.segment,

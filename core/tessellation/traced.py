@@ -11,15 +11,7 @@ from core.records.arrays import Floats, Integers
 from core.records.listing import RETURN, Listing, Operation, listing
 from core.resolved import resolve
 from core.stages.before_matrices import tessellated
-from core.tessellation.bezier import (
-    cross,
-    de_casteljau,
-    levels,
-    normal_of,
-    patch_derivatives,
-    patch_nets,
-    shares,
-)
+from core.tessellation import bezier
 from core.tessellation.patches import is_lost
 from core.tessellation.segments import is_flat
 from core.tessellation.tessellate import Tessellated
@@ -111,8 +103,8 @@ def _point_rows(made: Tessellated, vertex: Integers, group: Integers, triangle: 
         columns |= {f"after_{axis}": columns["after"][:, k] for k, axis in enumerate(AXES)}
     if "normal" in columns:
         columns |= {f"normal_{axis}": columns["normal"][:, k] for k, axis in enumerate(AXES[:3])}
-    listings: dict[str, Listing] = dict.fromkeys(kinds, listing(de_casteljau)) | {
-        "normal": listing(normal_of)
+    listings: dict[str, Listing] = dict.fromkeys(kinds, listing(bezier.de_casteljau)) | {
+        "normal": listing(bezier.normal_of)
     }
     return InsertedRows(
         before=np.repeat(group, width),
@@ -133,10 +125,10 @@ Slot = tuple[str, dict[str, Any]]
 def _curve_slots(made: Tessellated, vertex: Integers) -> Iterator[Slot]:
     """Yield the rows of points of curves."""
     step, steps = made.step[vertex, 0], made.steps[vertex, 0]
-    s, t = shares(step, steps)
+    s, t = bezier.shares(step, steps)
     of_t = {"step": step, "steps": steps, "s": s, "t": t}
     yield "parameter", of_t
-    scheme = levels(s, t, made.control[made.owner[vertex]])
+    scheme = bezier.levels(s, t, made.control[made.owner[vertex]])
     for mixture in _mixtures(scheme):
         yield "mix", of_t | mixture
     yield "emit", of_t | {"after": scheme[-1][:, 0]}
@@ -158,7 +150,7 @@ def _mixtures(scheme: list[Floats]) -> Iterator[dict[str, Any]]:
 def _patch_slots(made: Tessellated, vertex: Integers) -> Iterator[Slot]:
     """Yield the rows of points of patches: v along every row to two points, u along both columns, v once more."""
     step, steps = made.step[vertex], made.steps[vertex]
-    down, across = (shares(step[:, k], steps[:, k]) for k in (0, 1))
+    down, across = (bezier.shares(step[:, k], steps[:, k]) for k in (0, 1))
     of_u, of_v = (
         {"step": step[:, k], "steps": steps[:, k], "s": each[0], "t": each[1]}
         for k, each in ((0, down), (1, across))
@@ -166,19 +158,19 @@ def _patch_slots(made: Tessellated, vertex: Integers) -> Iterator[Slot]:
     yield "parameter", of_u
     yield "parameter-v", of_v
     control = made.control[made.owner[vertex]]
-    rows = [levels(*across, control[:, row])[:3] for row in range(4)]
+    rows = [bezier.levels(*across, control[:, row])[:3] for row in range(4)]
     for number, row in enumerate(rows):
         for mixture in _mixtures(row):
             yield "mix-row", of_v | {"line": number} | _in_space(mixture)
-    columns = [levels(*down, np.stack([row[-1][:, side] for row in rows], axis=1)) for side in (0, 1)]
+    columns = [bezier.levels(*down, np.stack([row[-1][:, side] for row in rows], axis=1)) for side in (0, 1)]
     for number, column in enumerate(columns):
         for mixture in _mixtures(column):
             yield "mix-column", of_u | {"line": number} | _in_space(mixture)
-    last = levels(*across, np.stack([column[-1][:, 0] for column in columns], axis=1))
+    last = bezier.levels(*across, np.stack([column[-1][:, 0] for column in columns], axis=1))
     for mixture in _mixtures(last):
         yield "mix-row", of_v | {"line": 0} | _in_space(mixture) | {"level": 3}
-    u_slope, v_slope = patch_derivatives(patch_nets(control, down, across), down, across)
-    normal = cross(u_slope, v_slope)
+    u_slope, v_slope = bezier.patch_derivatives(bezier.patch_nets(control, down, across), down, across)
+    normal = bezier.cross(u_slope, v_slope)
     lost = is_lost(normal, control).astype(np.int64)
     yield "normal", {"u_slope": u_slope, "v_slope": v_slope, "normal": normal, "has_no_normal": lost}
     yield "emit", of_v | _in_space({"after": last[-1][:, 0]})

@@ -17,17 +17,7 @@ from core.records.listing import RETURN, Listing, Operation, listing
 from core.stages.fragment_color import vertex_stage
 from core.trace.source import TraceSource
 from core.trace.stage_trace import InsertedRows, StageTrace, insert_rows
-from core.visibility.bsp import (
-    CUT,
-    BspTree,
-    build_tree,
-    cut_piece,
-    distance_of,
-    distances,
-    eye_side,
-    plane_of,
-    side_of,
-)
+from core.visibility import bsp
 from core.visibility.newell import PairTests, examine_pairs
 from core.visibility.painters import far_to_near, sums_of_depths
 
@@ -79,7 +69,7 @@ def with_sort(found: StageTrace, source: TraceSource) -> StageTrace:
 
 def with_tree(found: StageTrace, source: TraceSource) -> StageTrace:
     """Return the trace of the depth test with the rows of a BSP tree before it."""
-    tree = build_tree(corners_of(source))
+    tree = bsp.build_tree(corners_of(source))
     rows = _joined(list(_tree_rows(tree, source.triangle)), _TREE_COLUMNS)
     return _with_order(found, source, TREE_OPERATIONS, rows, tree_listings(), {"tree": tree})
 
@@ -236,24 +226,24 @@ _TREE_COLUMNS: dict[str, Any] = {
 }
 
 
-def _tree_rows(tree: BspTree, chosen: int | None) -> Iterator[dict[str, Any]]:
+def _tree_rows(tree: bsp.BspTree, chosen: int | None) -> Iterator[dict[str, Any]]:
     names = list(TREE_OPERATIONS)
     is_own = np.ones(len(tree.triangle), bool) if chosen is None else tree.triangle == chosen
     shown = np.flatnonzero(is_own[tree.tested])
     if len(shown) > MOST_ROWS:
-        shown = shown[tree.side[shown] == CUT]
-    d = distances(tree.clip[tree.tested[shown]], tree.plane[tree.tested_at[shown]])
+        shown = shown[tree.side[shown] == bsp.CUT]
+    d = bsp.distances(tree.clip[tree.tested[shown]], tree.plane[tree.tested_at[shown]])
     for place, triangle in enumerate(tree.flat.tolist()):
         if not is_own[triangle]:
             continue
-        plane = plane_of(*tree.clip[triangle].tolist())
+        plane = bsp.plane_of(*tree.clip[triangle].tolist())
         flat = {"kind": names.index("flat"), "group": triangle, "place": place, "plane": plane}
         yield _of_piece(tree, triangle) | flat
 
     # The nodes, every one with what is tested against its plane.
     group = len(tree.clip)
     tested = np.bincount(tree.tested_at, minlength=len(tree.root))
-    cuts = np.bincount(tree.tested_at[tree.side == CUT], minlength=len(tree.root))
+    cuts = np.bincount(tree.tested_at[tree.side == bsp.CUT], minlength=len(tree.root))
     ends = np.searchsorted(tree.tested_at[shown], np.arange(len(tree.root) + 1))
     of_node = {}
     for node in np.flatnonzero(is_own[tree.root] | (np.diff(ends) > 0)).tolist():
@@ -297,14 +287,14 @@ def _tree_rows(tree: BspTree, chosen: int | None) -> Iterator[dict[str, Any]]:
                 "kind": names.index("walk"),
                 "group": group + len(tree.root) + place,
                 "eye": -tree.plane[node, 2],
-                "eye_side": eye_side(tree.plane[node].tolist()),
+                "eye_side": bsp.eye_side(tree.plane[node].tolist()),
                 "place": first_drawn[node],
                 "held": held[node],
             }
         )
 
 
-def _of_node(tree: BspTree, node: int) -> dict[str, Any]:
+def _of_node(tree: bsp.BspTree, node: int) -> dict[str, Any]:
     """Return what all rows of a node have."""
     root, parent = int(tree.root[node]), int(tree.parent[node])
     return {
@@ -317,7 +307,7 @@ def _of_node(tree: BspTree, node: int) -> dict[str, Any]:
     }
 
 
-def _of_piece(tree: BspTree, piece: int) -> dict[str, Any]:
+def _of_piece(tree: bsp.BspTree, piece: int) -> dict[str, Any]:
     """Return what all rows about a piece have."""
     return {
         "triangle": tree.triangle[piece],
@@ -337,7 +327,7 @@ def _first_corner(corners: Floats, d: list[float]) -> dict[str, Any]:
 
 def tree_listings() -> dict[str, Listing]:
     """Return the listings of the rows of a tree, by kind and operation."""
-    found = {"flat": listing(plane_of), "root": listing(plane_of), "walk": listing(eye_side)}
+    found = {"flat": listing(bsp.plane_of), "root": listing(bsp.plane_of), "walk": listing(bsp.eye_side)}
     for side in SIDES:
-        found |= {f"{side}.distances": listing(distance_of), f"{side}.side": listing(side_of)}
-    return found | {f"cut.{name}": listing(cut_piece) for name in ("share", "corner")}
+        found |= {f"{side}.distances": listing(bsp.distance_of), f"{side}.side": listing(bsp.side_of)}
+    return found | {f"cut.{name}": listing(bsp.cut_piece) for name in ("share", "corner")}

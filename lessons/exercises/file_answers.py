@@ -9,6 +9,7 @@ from core import Settings, render
 from core.scene import AnyScene, ClipScene
 from core.setting_texts import settings_from_texts
 from core.study.planner.trials import difference, shown
+from lessons.exercises import record
 from lessons.exercises.answers.answer import Answer, Dial, Entry, NotCheckedError
 from lessons.exercises.answers.choices import ChoiceAnswer, OrderAnswer
 from lessons.exercises.answers.fields import Column, NumberAnswer, TableAnswer
@@ -20,22 +21,6 @@ from lessons.exercises.answers.trials import BreakAnswer, CheapestAnswer, Family
 from lessons.exercises.coding.tasks import task_named
 from lessons.exercises.drafting import DrawnScene, different_pixels, frame_art, seen_pixels
 from lessons.exercises.numbers import Draws, NoQuestionError
-from lessons.exercises.record import (
-    AnswerPart,
-    BreakPart,
-    CheapestPart,
-    ChoicePart,
-    CodePart,
-    LinePart,
-    NumberPart,
-    OrderPart,
-    PixelPart,
-    PlacePart,
-    SpotPart,
-    StepPart,
-    StepsPart,
-    TablePart,
-)
 from lessons.mistakes.shelf import SHELF
 
 SEARCH_LIMIT = 400
@@ -46,53 +31,53 @@ FAILS = {"differs": "the picture differs from the right one", "twice": "a pixel 
 
 
 def answer_of(
-    part: AnswerPart, drawn: DrawnScene | None, settings: Settings, draws: Draws
+    part: record.AnswerPart, drawn: DrawnScene | None, settings: Settings, draws: Draws
 ) -> tuple[Answer, str]:
     """Return the answer and what the question shows of the scene.
 
     Raises ValueError if the file does not say what is needed, `NoQuestionError` if only this draw does not give it.
     """
     given = "" if drawn is None else drawn.text()
-    if isinstance(part, NumberPart):
+    if isinstance(part, record.NumberPart):
         count = len(part.values)
         shape = (part.rows, count // part.rows) if part.rows > 1 else (count,) if count > 1 else ()
         return NumberAnswer(tuple(part.values), shape, tuple(part.names), part.tolerance), given
-    if isinstance(part, TablePart):
+    if isinstance(part, record.TablePart):
         cells = tuple(map(tuple, part.cells))
         heads = tuple(map(Column, part.columns))
         return TableAnswer(heads, tuple(part.labels), cells, tolerance=part.tolerance), given
-    if isinstance(part, OrderPart):
+    if isinstance(part, record.OrderPart):
         drawn_items = set(draws.shuffled(part.items)[: part.count])
         items = tuple(item for item in part.items if item in drawn_items)
         return OrderAnswer(items, draws.shuffled(items)), given
-    if isinstance(part, LinePart):
+    if isinstance(part, record.LinePart):
         lines, also = part.listing.strip("\n").split("\n"), frozenset(line - 1 for line in part.also)
         return LineAnswer(tuple(lines), part.wrong - 1, also), given
-    if isinstance(part, CodePart):
+    if isinstance(part, record.CodePart):
         return code_answer(part), given
-    if isinstance(part, StepsPart):
+    if isinstance(part, record.StepsPart):
         size = (1, 1) if drawn is None else drawn.scene.size
         return StepsAnswer(tuple(map(_step, part.steps)), size), given
-    if isinstance(part, PixelPart):
+    if isinstance(part, record.PixelPart):
         return pixel_answer(part, drawn, settings), given
-    if isinstance(part, PlacePart) and part.places:
+    if isinstance(part, record.PlacePart) and part.places:
         places: Places = tuple((x, y) for x, y in part.places)
         columns, rows = part.size if drawn is None else drawn.scene.size
         return PlaceAnswer((columns, rows), tuple(part.names), places, (), part.step, part.tolerance), given
-    if isinstance(part, ChoicePart):
+    if isinstance(part, record.ChoicePart):
         return choice_answer(part, part.right, draws), given
     if drawn is None:
         raise ValueError("expected a scene to draw")
-    if isinstance(part, PlacePart):
+    if isinstance(part, record.PlacePart):
         return corner_answer(drawn, part.corner, settings, part.step)
-    if isinstance(part, SpotPart):
+    if isinstance(part, record.SpotPart):
         return spot_answer((part.mistake, *part.others), drawn, settings, draws)
-    if isinstance(part, BreakPart):
+    if isinstance(part, record.BreakPart):
         return _break_answer(part, drawn, settings, draws), given
     return _cheapest_answer(part, drawn.scene, settings), given
 
 
-def code_answer(part: CodePart) -> CodeAnswer:
+def code_answer(part: record.CodePart) -> CodeAnswer:
     """Return a listing of a task: with another line, without one, the head alone, or as the part has it."""
     task = task_named(part.task)
     if part.right is not None:
@@ -110,7 +95,7 @@ def code_answer(part: CodePart) -> CodeAnswer:
         raise ValueError(f"the right listing cannot run: {problem}") from None
 
 
-def choice_answer(part: ChoicePart, right: Sequence[str], draws: Draws) -> ChoiceAnswer:
+def choice_answer(part: record.ChoicePart, right: Sequence[str], draws: Draws) -> ChoiceAnswer:
     """Return the options in an order that is drawn; some of them where the part says how many."""
     options = draws.shuffled(part.options)
     if part.count is not None:
@@ -124,7 +109,7 @@ def choice_answer(part: ChoicePart, right: Sequence[str], draws: Draws) -> Choic
     return ChoiceAnswer(options, chosen, part.several, notes)
 
 
-def pixel_answer(part: PixelPart, drawn: DrawnScene | None, settings: Settings) -> PixelAnswer:
+def pixel_answer(part: record.PixelPart, drawn: DrawnScene | None, settings: Settings) -> PixelAnswer:
     """Return pixels from text art, or by drawing the scene."""
     if part.art is None:
         if drawn is None:
@@ -139,7 +124,7 @@ def pixel_answer(part: PixelPart, drawn: DrawnScene | None, settings: Settings) 
     return PixelAnswer((columns, rows), of["#"], of["?"], part.noun)
 
 
-def _step(part: StepPart) -> Entry:
+def _step(part: record.StepPart) -> Entry:
     if part.number is not None:
         return Entry(part.ask, "number", part.number, tolerance=part.tolerance)
     if part.pixel:
@@ -211,7 +196,7 @@ def _differs(reference: Settings, scene: ClipScene, settings: Settings) -> bool:
     return bool(different_pixels(render(scene, settings), render(scene, reference)))
 
 
-def _break_answer(part: BreakPart, drawn: DrawnScene, settings: Settings, draws: Draws) -> BreakAnswer:
+def _break_answer(part: record.BreakPart, drawn: DrawnScene, settings: Settings, draws: Draws) -> BreakAnswer:
     """Search for a place of the corner at which the weak method alone fails."""
     start = drawn.corner(part.corner)
     columns, rows = drawn.scene.size
@@ -245,7 +230,7 @@ def _break_answer(part: BreakPart, drawn: DrawnScene, settings: Settings, draws:
     raise NoQuestionError(reason)
 
 
-def _cheapest_answer(part: CheapestPart, scene: AnyScene, settings: Settings) -> CheapestAnswer:
+def _cheapest_answer(part: record.CheapestPart, scene: AnyScene, settings: Settings) -> CheapestAnswer:
     """Compare pictures with that of the settings, in bytes."""
     families = tuple(
         Family(family, tuple(costs), tuple(costs.values())) for family, costs in part.costs.items()

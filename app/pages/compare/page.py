@@ -10,18 +10,8 @@ from PySide6.QtWidgets import QSplitter, QTabWidget, QWidget
 
 from app import __version__
 from app.background import PartWork
+from app.pages.compare import figures
 from app.pages.compare.charts import growth_of, numbers_of, scatter_of, title_of
-from app.pages.compare.figures import (
-    FamilyChoice,
-    choice_of_saved,
-    choices_of_all,
-    controls_of,
-    family_text,
-    point_text,
-    study_sentences,
-    study_text,
-    table_of,
-)
 from app.pages.compare.jobs import chosen_points, drawn_points, measured, plan_candidates
 from app.pages.compare.study_files import EXTENSION, load_study, study_content, study_stem
 from app.pages.experiment_page import OpenedPictures, splitter
@@ -46,7 +36,7 @@ from widgets.experiments.series import (
     TableRecord,
 )
 
-KIND: ResultKind[Study, FamilyChoice] = ResultKind(
+KIND: ResultKind[Study, figures.FamilyChoice] = ResultKind(
     page="Compare",
     cancelled="Measuring was cancelled",
     failed="It could not be measured",
@@ -65,10 +55,10 @@ KIND: ResultKind[Study, FamilyChoice] = ResultKind(
     content=lambda study, choice, ending: study_content(study, choice.measure, ending, choice.cost),
     stem=study_stem,
     name_of=attrgetter("family"),
-    saved_choice=choice_of_saved,
-    sentences=study_sentences,
+    saved_choice=figures.choice_of_saved,
+    sentences=figures.study_sentences,
     so_far=lambda study: (
-        f"{study_sentences(study)[0]} {counted(len(study.points), 'method')} measured so far."
+        f"{figures.study_sentences(study)[0]} {counted(len(study.points), 'method')} measured so far."
     ),
     done=lambda title, _: f"Measured {title.lower()}.",
 )
@@ -84,11 +74,11 @@ FIRST = "line"
 LETTERS = ("A", "B")
 
 
-class ComparePage(ResultPage[Study, FamilyChoice]):
+class ComparePage(ResultPage[Study, figures.FamilyChoice]):
     """Measures the families of methods; shows each method as a point, and what one or two points drew."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
-        super().__init__(KIND, choices_of_all(), FIRST, parent)
+        super().__init__(KIND, figures.choices_of_all(), FIRST, parent)
         self._session = session
         self.controls: StudyControls = StudyControls(self)
         self.scatter, self.growth = Chart("Error against cost", self), Chart("Cost against size", self)
@@ -146,7 +136,7 @@ class ComparePage(ResultPage[Study, FamilyChoice]):
         return next((point for point in points if point.method == method), None)
 
     def _show_controls(self) -> None:
-        self.controls.show_choices(controls_of(self.choice))
+        self.controls.show_choices(figures.controls_of(self.choice))
 
     def _show_result(self) -> None:
         study, choice = self.content, self.choice
@@ -162,7 +152,7 @@ class ComparePage(ResultPage[Study, FamilyChoice]):
             growth = (
                 GROWTH_COMES if self.is_partial and choice.grow else growth_of(study, choice.cost, numbers)
             )
-            self.table.show_table(table_of(study))
+            self.table.show_table(figures.table_of(study))
         self.scatter.show_picture(scatter)
         self.growth.show_picture(growth)
         self._show_legend(scatter)
@@ -201,12 +191,14 @@ class ComparePage(ResultPage[Study, FamilyChoice]):
         """Show the figures of the method that is pointed at, or of the one that was chosen last."""
         study, result = self.content, self.choice.result
         if study is None:
-            self.readout.show_text(family_text(self.choice))
+            self.readout.show_text(figures.family_text(self.choice))
             return
         points = [self.point(method) for method in (self._pointed, *self.chosen[-1:])]
         point = next((each for each in points if each is not None), None)
         path = result.path if result is not None and not self.is_partial else ""
-        self.readout.show_text(study_text(study, path) if point is None else point_text(study, point))
+        self.readout.show_text(
+            figures.study_text(study, path) if point is None else figures.point_text(study, point)
+        )
 
     # Choosing.
 
@@ -228,7 +220,7 @@ class ComparePage(ResultPage[Study, FamilyChoice]):
 
     def show_next_cost(self) -> None:
         """Show the next cost on the horizontal axis: time, or a count of work."""
-        names = [name for name, _ in controls_of(self.choice).costs]
+        names = [name for name, _ in figures.controls_of(self.choice).costs]
         self._choose("cost", names[(names.index(self.choice.cost) + 1) % len(names)])
 
     def toggle_numbers(self) -> None:

@@ -9,20 +9,8 @@ from PySide6.QtWidgets import QMenu, QWidget
 
 from app.files.state_models import GridLook
 from app.pages.page_bar import Page
+from app.pages.step import grid_records
 from app.pages.step.grid_overlays import Guesses, area_overlays, clip_overlays, polygon_overlays, step_mark
-from app.pages.step.grid_records import (
-    LANE_MARKS,
-    block_overlays,
-    buffers_of,
-    edge_overlays,
-    geometry_of,
-    is_presented,
-    mask_overlays,
-    outlined_triangles,
-    piece_overlays,
-    sample_dots,
-    span_overlays,
-)
 from app.pages.step.main_area import MainArea
 from app.pages.step.stepping_presenter import SteppingPresenter
 from app.session.document import Document
@@ -80,7 +68,7 @@ class VertexDrags(QObject):
         first_column, first_row, _, _ = trace.source.raster.bounds
         wanted = document.triangle if document.triangle is not None else self._focus()
         place, corner = divmod(vertex, trace.source.scene.corner_count)
-        triangle = int(outlined_triangles(trace, wanted)[place])
+        triangle = int(grid_records.outlined_triangles(trace, wanted)[place])
         position, size = (x + first_column, y + first_row), document.traced_scene.size
         try:
             scene = move_corner(latest.scene, triangle, corner, position, size)
@@ -170,7 +158,7 @@ DEFAULT_OVERLAYS = {
     "raster": frozenset(
         {"rejected", "tie", "nan", "spans", "clip window", "clipped lines", "clipped polygon", PIECES}
     ),
-    "shade": frozenset({*LANE_MARKS, "unset", "nan"}),
+    "shade": frozenset({*grid_records.LANE_MARKS, "unset", "nan"}),
     "depth": frozenset({"failed", "nan", PIECES}),
     "resolve": frozenset({"nan", "cutting edge", "cut polygon"}),
 }
@@ -211,7 +199,7 @@ class GridPresenter(QObject):
         self._moment = session.moment
         self._stepped_to = session.cursor
         self._outlined_at = ("", 0, True)
-        self._geometry = geometry_of(session.moment, 0)
+        self._geometry = grid_records.geometry_of(session.moment, 0)
         self.refresh_run(session.moment)
 
     # Showing.
@@ -241,7 +229,7 @@ class GridPresenter(QObject):
         self._stepped_to = moment.cursor
         if self._outlined_at != self._geometry_step():
             self._show_outlines()
-        buffers = buffers_of(moment)
+        buffers = grid_records.buffers_of(moment)
         names = [buffer.name for buffer in buffers]
         guesses = self._guesses
         chosen = self._chosen.get(stage, names[0]) if guesses is None else "coverage"
@@ -251,7 +239,7 @@ class GridPresenter(QObject):
             self._strip.show_buffers([self._ranged(buffer) for buffer in buffers])
             self._strip.show_chosen(main.name)
         self._grid.show_hidden(None if guesses is None else guesses.hidden)
-        self._grid.show_samples(sample_dots(moment))
+        self._grid.show_samples(grid_records.sample_dots(moment))
         overlays = self._overlays() if guesses is None else guesses.overlays()
         shown = self._shown_in(stage)
         if guesses is not None:
@@ -323,12 +311,16 @@ class GridPresenter(QObject):
     def _geometry_step(self) -> tuple[str, int, bool]:
         """Return what outlines depend on: the stages that move corners and drop triangles, and whose step it is."""
         moment, stage = self._moment, self._moment.cursor.stage
-        at = (stage, moment.rows_done) if stage in OUTLINING else (STAGES[-1], int(is_presented(moment)))
+        at = (
+            (stage, moment.rows_done)
+            if stage in OUTLINING
+            else (STAGES[-1], int(grid_records.is_presented(moment)))
+        )
         return *at, moment.triangle in (-1, self._focus)
 
     def _show_outlines(self) -> None:
         self._outlined_at = self._geometry_step()
-        self._geometry = geometry = geometry_of(self._moment, self._focus)
+        self._geometry = geometry = grid_records.geometry_of(self._moment, self._focus)
         self._grid.show_geometry(geometry)
         self._strip.show_geometry(geometry)
 
@@ -346,14 +338,14 @@ class GridPresenter(QObject):
     def _overlays(self) -> list[Overlay]:
         moment = self._moment
         return [
-            *block_overlays(moment),
-            *mask_overlays(moment),
-            *span_overlays(moment),
+            *grid_records.block_overlays(moment),
+            *grid_records.mask_overlays(moment),
+            *grid_records.span_overlays(moment),
             *area_overlays(moment),
             *clip_overlays(moment),
             *polygon_overlays(moment),
-            *edge_overlays(moment, self._geometry),
-            *piece_overlays(moment),
+            *grid_records.edge_overlays(moment, self._geometry),
+            *grid_records.piece_overlays(moment),
             CenterOverlay(CENTRES),
         ]
 
@@ -369,7 +361,7 @@ class GridPresenter(QObject):
 
     def buffer_of(self, names: Iterable[str]) -> str:
         """Return the first of these names that a buffer of the stage has; empty: none has."""
-        known = {buffer.name for buffer in buffers_of(self._session.moment)}
+        known = {buffer.name for buffer in grid_records.buffers_of(self._session.moment)}
         return next((name for name in names if name in known), "")
 
     def choose_buffer(self, name: str) -> None:

@@ -13,26 +13,19 @@ from app.pages.stability.page import StabilityPage
 from app.window.main_window import MainWindow
 from core.study.record import Axis
 from core.study.stability import experiments, stress
-from tests.app.pages.stability.stability_pages import (
-    EXCLUSIVE,
-    click,
-    point_at,
-    run,
-    stability_page,
-    wait_for_case,
-)
+from tests.app.pages.stability import stability_pages
 from widgets.experiments.maps import CellPlace
 
 
 @pytest.fixture
 def page(window: MainWindow) -> StabilityPage:
-    return stability_page(window)
+    return stability_pages.stability_page(window)
 
 
 def test_an_atlas_is_exported_and_opened_again(
     window: MainWindow, page: StabilityPage, qtbot: QtBot, tmp_path: Path
 ) -> None:
-    atlas = run(page, qtbot)
+    atlas = stability_pages.run(page, qtbot)
     for ending in ("json", "csv", "svg", "png", "pdf"):
         page.export_to(str(tmp_path / f"atlas.{ending}"))
     assert (tmp_path / "atlas.png").read_bytes().startswith(b"\x89PNG")
@@ -52,12 +45,12 @@ def test_an_atlas_is_exported_and_opened_again(
         assert np.array_equal(first.severity, second.severity, equal_nan=True)
         assert first.remarks == second.remarks
         assert all(all(row) for row in first.remarks)
-    said = next(each for each in again.maps if each.method == EXCLUSIVE).remark(0, 0)
-    point_at(page, CellPlace(EXCLUSIVE, 0, 0))
+    said = next(each for each in again.maps if each.method == stability_pages.EXCLUSIVE).remark(0, 0)
+    stability_pages.point_at(page, CellPlace(stability_pages.EXCLUSIVE, 0, 0))
     assert "pixels missing" in said
     assert said in page.readout.text()
-    click(page, CellPlace(EXCLUSIVE, 0, 0))
-    wait_for_case(page, qtbot)
+    stability_pages.click(page, CellPlace(stability_pages.EXCLUSIVE, 0, 0))
+    stability_pages.wait_for_case(page, qtbot)
     assert said in page.case.verdict.text(), "a new run says the same"
 
 
@@ -70,14 +63,14 @@ def test_an_atlas_of_before_there_were_remarks_opens(page: StabilityPage, tmp_pa
     (tmp_path / "old.json").write_text(json.dumps(record))
     page.open_path(str(tmp_path / "old.json"))
     assert page.choice.result.content.maps[0].remark(0, 0) == ""
-    point_at(page, CellPlace(EXCLUSIVE, 0, 0))
+    stability_pages.point_at(page, CellPlace(stability_pages.EXCLUSIVE, 0, 0))
     assert "Outcome" in page.readout.text()
 
 
 def test_an_atlas_of_an_unknown_experiment_is_shown_and_not_run(
     page: StabilityPage, qtbot: QtBot, tmp_path: Path
 ) -> None:
-    run(page, qtbot)
+    stability_pages.run(page, qtbot)
     page.export_to(str(tmp_path / "atlas.json"))
     record = json.loads((tmp_path / "atlas.json").read_text())
     record["experiment"], record["title"] = "gone", "An experiment of another version"
@@ -85,7 +78,7 @@ def test_an_atlas_of_an_unknown_experiment_is_shown_and_not_run(
     page.open_path(str(tmp_path / "atlas.json"))
     assert page.entries.currentItem().text() == "An experiment of another version"
     assert not page.controls.start_button.isEnabled()
-    click(page, CellPlace(EXCLUSIVE, 0, 0))
+    stability_pages.click(page, CellPlace(stability_pages.EXCLUSIVE, 0, 0))
     assert "no such experiment" in page.case.verdict.text()
 
 

@@ -12,15 +12,7 @@ import numpy as np
 import pytest
 from PySide6.QtWidgets import QApplication
 
-from app.pages.compare.study_files import (
-    StudyFileError,
-    export_study,
-    load_study,
-    study_content,
-    study_csv,
-    study_json,
-    study_sheet,
-)
+from app.pages.compare import study_files
 from app.pages.words import digits, time_text
 from core import Settings
 from core.study.record import Axis, ErrorMeasure, Point, Study, WorkKind, machine, pareto_front
@@ -88,17 +80,17 @@ def point_dict(point: Point) -> dict:
 
 
 def test_a_saved_study_opens_again(study: Study, tmp_path: Path) -> None:
-    (tmp_path / "a.json").write_text(study_json(study), encoding="utf-8")
-    again = load_study(tmp_path / "a.json")
+    (tmp_path / "a.json").write_text(study_files.study_json(study), encoding="utf-8")
+    again = study_files.load_study(tmp_path / "a.json")
     assert as_dict(again) == as_dict(study)
-    (tmp_path / "b.json").write_text(study_json(again), encoding="utf-8")
+    (tmp_path / "b.json").write_text(study_files.study_json(again), encoding="utf-8")
     assert (tmp_path / "a.json").read_bytes() == (tmp_path / "b.json").read_bytes()
 
 
 def test_a_measured_study_opens_again(tmp_path: Path) -> None:
     measured = measure("cull", dials={"rings": 4}, rounds=1, grow=False, machine=machine("1"))
-    (tmp_path / "a.json").write_text(study_json(measured), encoding="utf-8")
-    assert as_dict(load_study(tmp_path / "a.json")) == as_dict(measured)
+    (tmp_path / "a.json").write_text(study_files.study_json(measured), encoding="utf-8")
+    assert as_dict(study_files.load_study(tmp_path / "a.json")) == as_dict(measured)
 
 
 @pytest.mark.parametrize(
@@ -117,12 +109,12 @@ def test_a_file_that_is_not_right_is_told_in_one_sentence(
     study: Study, tmp_path: Path, change, message: str
 ) -> None:
     path = tmp_path / "a.json"
-    path.write_text(study_json(study), encoding="utf-8")
+    path.write_text(study_files.study_json(study), encoding="utf-8")
     found = json.loads(path.read_text())
     change(found)
     path.write_text(json.dumps(found))
-    with pytest.raises(StudyFileError) as problem:
-        load_study(path)
+    with pytest.raises(study_files.StudyFileError) as problem:
+        study_files.load_study(path)
     assert message in str(problem.value)
     assert "\n" not in str(problem.value)
 
@@ -131,14 +123,14 @@ def test_a_file_that_is_not_right_is_told_in_one_sentence(
 def test_a_file_of_something_else_is_told(tmp_path: Path, content: bytes) -> None:
     path = tmp_path / "a.json"
     path.write_bytes(content)
-    with pytest.raises(StudyFileError, match=r"a\.json cannot be opened: it is not a study"):
-        load_study(path)
-    with pytest.raises(StudyFileError, match="there is no file"):
-        load_study(tmp_path / "none.json")
+    with pytest.raises(study_files.StudyFileError, match=r"a\.json cannot be opened: it is not a study"):
+        study_files.load_study(path)
+    with pytest.raises(study_files.StudyFileError, match="there is no file"):
+        study_files.load_study(tmp_path / "none.json")
 
 
 def test_the_table_has_the_numbers_of_the_study(study: Study) -> None:
-    rows = list(csv.DictReader(io.StringIO(study_csv(study))))
+    rows = list(csv.DictReader(io.StringIO(study_files.study_csv(study))))
     assert len(rows) == 4 + 2 + 1
     for row, point in zip(rows, study.points, strict=False):
         assert row["method"] == point.method
@@ -163,7 +155,7 @@ def test_the_table_has_the_numbers_of_the_study(study: Study) -> None:
 
 def words_of(study: Study, measure: str | None = None) -> str:
     """Return all texts of the charts as one line."""
-    svg = study_content(study, measure, ".svg")
+    svg = study_files.study_content(study, measure, ".svg")
     assert svg is not None
     return " ".join(
         node.text or "" for node in ElementTree.fromstring(svg).iter() if node.tag.endswith("text")
@@ -189,7 +181,7 @@ def test_charts_name_everything(study: Study, qapp: QApplication) -> None:
 
 def test_charts_on_paper_are_those_of_the_page(study: Study, qapp: QApplication) -> None:
     with paint_as(LIGHT):
-        sheet = study_sheet(study, study.measures[0])
+        sheet = study_files.study_sheet(study, study.measures[0])
     scatter, growth = (chart.picture for chart in sheet.findChildren(Chart))
     assert [float(series.y[0]) for series in scatter.series] == [0.0, 0.0, 12.25]
     assert scatter.front == ("coverage=float64", "fill=spans")
@@ -197,16 +189,16 @@ def test_charts_on_paper_are_those_of_the_page(study: Study, qapp: QApplication)
 
 
 def test_the_theme_of_the_window_does_not_change_a_file(study: Study, qapp: QApplication) -> None:
-    light = study_content(study, None, ".svg")
+    light = study_files.study_content(study, None, ".svg")
     with paint_as(DARK):
-        assert study_content(study, None, ".svg") == light
+        assert study_files.study_content(study, None, ".svg") == light
         assert current_theme() == DARK
 
 
 def test_the_chart_of_another_error_says_what_is_left_out(study: Study, qapp: QApplication) -> None:
     assert "<Float & 64>. It has none." in words_of(study, "late")
     with pytest.raises(ValueError, match="error of fill must be one of wrong, late, got speed"):
-        study_content(study, "speed", ".svg")
+        study_files.study_content(study, "speed", ".svg")
 
 
 def test_a_study_without_numbers_has_an_empty_chart(study: Study, qapp: QApplication) -> None:
@@ -214,7 +206,7 @@ def test_a_study_without_numbers_has_an_empty_chart(study: Study, qapp: QApplica
 
 
 def test_files_are_written_and_say_nothing_of_the_user(study: Study, tmp_path: Path, qapp) -> None:
-    written = export_study(study, tmp_path)
+    written = study_files.export_study(study, tmp_path)
     assert sorted(path.name for path in written) == [
         f"study-fill-triangles{ending}" for ending in (".csv", ".json", ".png", ".svg")
     ]

@@ -6,21 +6,8 @@ from pathlib import Path
 import pytest
 from pydantic import BaseModel
 
+from lessons.course import record
 from lessons.course.quoted import CALLED, COUNTS
-from lessons.course.record import (
-    KEPT,
-    PANES,
-    CameraPart,
-    FailsPart,
-    LessonPart,
-    MaterialPart,
-    NextPart,
-    SolutionPart,
-    StatePart,
-    StepPart,
-    UntilPart,
-    WrongPart,
-)
 from tests.app.cli.cli_runs import run_program
 
 PAGE = Path(__file__).parents[3] / "docs" / "lessons.md"
@@ -49,16 +36,16 @@ def test_the_first_lesson_of_the_page_works(tmp_path: Path, monkeypatch: pytest.
 @pytest.mark.parametrize(
     "part",
     [
-        LessonPart,
-        StepPart,
-        StatePart,
-        UntilPart,
-        SolutionPart,
-        WrongPart,
-        FailsPart,
-        NextPart,
-        CameraPart,
-        MaterialPart,
+        record.LessonPart,
+        record.StepPart,
+        record.StatePart,
+        record.UntilPart,
+        record.SolutionPart,
+        record.WrongPart,
+        record.FailsPart,
+        record.NextPart,
+        record.CameraPart,
+        record.MaterialPart,
     ],
 )
 def test_every_key_stands_on_the_page(part: type[BaseModel]) -> None:
@@ -68,4 +55,4 @@ def test_every_key_stands_on_the_page(part: type[BaseModel]) -> None:
 def test_every_name_stands_on_the_page() -> None:
     names = (*CALLED, *COUNTS)
     assert [name for name in names if not re.search(rf"`{name}\W", TEXT)] == []
-    assert [name for name in (*KEPT, *PANES) if f"`{name}`" not in TEXT] == []
+    assert [name for name in (*record.KEPT, *record.PANES) if f"`{name}`" not in TEXT] == []

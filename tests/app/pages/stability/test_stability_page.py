@@ -19,17 +19,7 @@ from core.study.fragment_cases import NAME as OPEN_SCENE
 from core.study.record import Axis, Outcome
 from core.study.stability import experiments, stress
 from core.study.stress import axes_at
-from tests.app.pages.stability.stability_pages import (
-    EXCLUSIVE,
-    LEFT,
-    click,
-    ran,
-    run,
-    stability_page,
-    status,
-    wait_for_case,
-    wait_for_shrunk,
-)
+from tests.app.pages.stability import stability_pages
 from widgets.experiments.case_pictures import HEAD
 from widgets.experiments.maps import UNKNOWN, CellPlace
 
@@ -38,7 +28,7 @@ pytestmark = pytest.mark.shared_window
 
 @pytest.fixture
 def page(window: MainWindow) -> StabilityPage:
-    return stability_page(window)
+    return stability_pages.stability_page(window)
 
 
 @pytest.mark.own_window
@@ -47,8 +37,8 @@ def test_every_experiment_is_offered_and_the_open_scene_last(page: StabilityPage
     assert titles == [*(each.info.title for each in experiments), "Watertightness of the open scene"]
     assert page.maps.canvas.record is None
     assert page.controls.claim.text() == f"Claim: {experiments.get('shared-edges').info.claim}"
-    QTest.mouseClick(page.export_button, LEFT)
-    assert "run the experiment first" in status(page)
+    QTest.mouseClick(page.export_button, stability_pages.LEFT)
+    assert "run the experiment first" in stability_pages.status(page)
 
 
 def test_a_run_shows_every_cell_as_it_is_run_elsewhere(page: StabilityPage, qtbot: QtBot) -> None:
@@ -59,7 +49,7 @@ def test_a_run_shows_every_cell_as_it_is_run_elsewhere(page: StabilityPage, qtbo
         unknown.append(record.count(UNKNOWN))
 
     page.work.part_done.connect(count_unknown)
-    atlas = run(page, qtbot)
+    atlas = stability_pages.run(page, qtbot)
     info = experiments.get("shared-edges").info
     alone = stress("shared-edges", axes=axes_at(info.axes, "coarse"))
     record = page.maps.canvas.record
@@ -75,11 +65,11 @@ def test_a_run_shows_every_cell_as_it_is_run_elsewhere(page: StabilityPage, qtbo
 
 
 def test_cancelling_leaves_the_maps_of_before(page: StabilityPage, qtbot: QtBot) -> None:
-    before = run(page, qtbot)
+    before = stability_pages.run(page, qtbot)
     page.choice.resolution = "fine"
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
     qtbot.waitUntil(lambda: page.maps.canvas.record is not None and page.is_partial)
-    page.maps.canvas.cell_chosen.emit(CellPlace(EXCLUSIVE, 18, 0))
+    page.maps.canvas.cell_chosen.emit(CellPlace(stability_pages.EXCLUSIVE, 18, 0))
     QTest.keyClick(page.window(), Qt.Key.Key_Escape)
     assert not page.is_running
     record = page.maps.canvas.record
@@ -90,7 +80,7 @@ def test_cancelling_leaves_the_maps_of_before(page: StabilityPage, qtbot: QtBot)
 
 
 def test_a_failed_run_leaves_the_maps_of_before(page: StabilityPage, qtbot: QtBot) -> None:
-    before = run(page, qtbot)
+    before = stability_pages.run(page, qtbot)
     wrong = (Axis("height", "Height", "", (1.0,)),)
     page.begin(partial(run_grid, experiments.get("shared-edges"), wrong, 0), "")
     window = page.window()
@@ -100,7 +90,7 @@ def test_a_failed_run_leaves_the_maps_of_before(page: StabilityPage, qtbot: QtBo
 
 
 def test_atlases_are_kept_for_every_experiment(page: StabilityPage, qtbot: QtBot) -> None:
-    atlas = ran(page, qtbot)
+    atlas = stability_pages.ran(page, qtbot)
     QTest.keyClick(page.window(), Qt.Key.Key_PageDown, Qt.KeyboardModifier.ControlModifier)
     assert page.choice.name == "mesh-through-the-eye"
     assert page.maps.canvas.record is None
@@ -111,8 +101,8 @@ def test_atlases_are_kept_for_every_experiment(page: StabilityPage, qtbot: QtBot
 
 @pytest.mark.own_window
 def test_hover_reads_the_cell_and_leaving_reads_the_experiment(page: StabilityPage, qtbot: QtBot) -> None:
-    ran(page, qtbot)
-    place = page.maps.canvas.cell_area(CellPlace(EXCLUSIVE, 0, 0)).center()
+    stability_pages.ran(page, qtbot)
+    place = page.maps.canvas.cell_area(CellPlace(stability_pages.EXCLUSIVE, 0, 0)).center()
     QTest.mouseMove(page.maps.canvas, place + QPoint(3, 0))  # Where it may be already, there is no move.
     QTest.mouseMove(page.maps.canvas, place)
     for wanted in ("Fill rule: exclusive", "Outcome: <b>hole</b>", "of 1,024 pixels missing", "Severity"):
@@ -128,14 +118,14 @@ def test_hover_reads_the_cell_and_leaving_reads_the_experiment(page: StabilityPa
 
 @pytest.mark.own_window
 def test_keys_go_from_cell_to_cell_and_from_map_to_map(page: StabilityPage, qtbot: QtBot) -> None:
-    ran(page, qtbot)
+    stability_pages.ran(page, qtbot)
     canvas = page.maps.canvas
     canvas.setFocus()
     for key in (Qt.Key.Key_Right, Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Up, Qt.Key.Key_Down):
         QTest.keyClick(canvas, key)
     assert canvas.chosen == CellPlace("fill=scanline-lecture", 1, 1)
     QTest.keyClick(canvas, Qt.Key.Key_Tab)
-    assert canvas.chosen == CellPlace(EXCLUSIVE, 1, 1)
+    assert canvas.chosen == CellPlace(stability_pages.EXCLUSIVE, 1, 1)
     QTest.keyClick(canvas, Qt.Key.Key_Backtab, Qt.KeyboardModifier.ShiftModifier)
     assert canvas.chosen == CellPlace("fill=scanline-lecture", 1, 1)
     assert page.choice.chosen == canvas.chosen
@@ -148,18 +138,18 @@ def test_keys_go_from_cell_to_cell_and_from_map_to_map(page: StabilityPage, qtbo
 def test_a_click_shows_the_case_and_another_opens_it_in_the_stepper(
     window: MainWindow, page: StabilityPage, qtbot: QtBot
 ) -> None:
-    ran(page, qtbot)
+    stability_pages.ran(page, qtbot)
     before = window.session.document
-    place = CellPlace(EXCLUSIVE, 0, 0)
-    click(page, place)
-    wait_for_case(page, qtbot)
+    place = CellPlace(stability_pages.EXCLUSIVE, 0, 0)
+    stability_pages.click(page, place)
+    stability_pages.wait_for_case(page, qtbot)
     found = page.opened.found
     assert found.frame is not None
     cover = page.case.linked.grids[1].buffer()
     assert int(np.count_nonzero(cover.values == 0)) == found.verdict.severity > 0
     assert cover.values[page.case.pin[1], page.case.pin[0]] == 0
     with qtbot.waitSignal(window.opening.opened, timeout=60000):
-        QTest.mouseClick(page.case.step_button, LEFT)
+        QTest.mouseClick(page.case.step_button, stability_pages.LEFT)
     assert window.pages.current_name == "step"
     assert window.session.document.settings.fill_rule == "exclusive"
     assert window.session.pin == page.case.pin
@@ -169,14 +159,16 @@ def test_a_click_shows_the_case_and_another_opens_it_in_the_stepper(
 
 @pytest.mark.parametrize("by", ["double click", "enter"])
 def test_a_cell_is_opened_at_once(window: MainWindow, page: StabilityPage, qtbot: QtBot, by: str) -> None:
-    ran(page, qtbot)
+    stability_pages.ran(page, qtbot)
     place = CellPlace("fill_rule=inclusive", 0, 0)
     with qtbot.waitSignal(window.opening.opened, timeout=60000):
-        click(page, place)
+        stability_pages.click(page, place)
         if by == "enter":
             QTest.keyClick(page.maps.canvas, Qt.Key.Key_Return)
         else:
-            QTest.mouseDClick(page.maps.canvas, LEFT, pos=page.maps.canvas.cell_area(place).center())
+            QTest.mouseDClick(
+                page.maps.canvas, stability_pages.LEFT, pos=page.maps.canvas.cell_area(place).center()
+            )
     assert window.session.document.settings.fill_rule == "inclusive"
 
 
@@ -186,24 +178,24 @@ def test_a_picture_that_is_too_large_is_only_opened(
 ) -> None:
     page.show_named("line-drift")
     page.choice.resolution = "coarse"
-    atlas = run(page, qtbot)
+    atlas = stability_pages.run(page, qtbot)
     worst = next(each for each in atlas.maps if each.method == "line=dda-float32")
     column = worst.outcome.shape[1] - 1
     row = int(np.flatnonzero(worst.outcome[:, column] != Outcome.RIGHT)[0])
-    click(page, CellPlace(worst.method, column, row))
-    wait_for_case(page, qtbot)
+    stability_pages.click(page, CellPlace(worst.method, column, row))
+    stability_pages.wait_for_case(page, qtbot)
     found = page.opened.found
     assert found.frame is None
     assert "open it in the stepper" in page.case.verdict.text()
     with qtbot.waitSignal(window.opening.opened, timeout=60000):
-        QTest.mouseClick(page.case.step_button, LEFT)
+        QTest.mouseClick(page.case.step_button, stability_pages.LEFT)
     assert window.session.pin == found.opening.pixel
 
 
 def test_escape_closes_the_case(page: StabilityPage, qtbot: QtBot) -> None:
-    ran(page, qtbot)
-    click(page, CellPlace(EXCLUSIVE, 0, 0))
-    wait_for_case(page, qtbot)
+    stability_pages.ran(page, qtbot)
+    stability_pages.click(page, CellPlace(stability_pages.EXCLUSIVE, 0, 0))
+    stability_pages.wait_for_case(page, qtbot)
     QTest.keyClick(page.window(), Qt.Key.Key_Escape)
     assert not page.case.isVisible()
     assert page.maps.canvas.chosen is None
@@ -226,13 +218,13 @@ def test_every_kind_of_cell_is_shrunk_and_opens_in_the_stepper(
 ) -> None:
     page.show_named(name)
     page.choice.resolution = "coarse"
-    found = next(each for each in run(page, qtbot).maps if each.method == method)
+    found = next(each for each in stability_pages.run(page, qtbot).maps if each.method == method)
     failing = np.argwhere((found.outcome != Outcome.RIGHT) & (found.outcome != Outcome.REFUSED))
     row, column = failing[0].tolist()
-    click(page, CellPlace(method, column, row))
-    wait_for_case(page, qtbot)
+    stability_pages.click(page, CellPlace(method, column, row))
+    stability_pages.wait_for_case(page, qtbot)
     QTest.keyClick(window, Qt.Key.Key_S)
-    shrunk = wait_for_shrunk(page, qtbot)
+    shrunk = stability_pages.wait_for_shrunk(page, qtbot)
     assert shrunk.sentence in page.case.verdict.text()
     assert page.case.step_button.isEnabled()
     with qtbot.waitSignal(window.opening.opened, timeout=60000):
@@ -246,11 +238,11 @@ def test_every_kind_of_cell_is_shrunk_and_opens_in_the_stepper(
 def test_a_failing_cell_is_shrunk_saved_and_opened(
     window: MainWindow, page: StabilityPage, qtbot: QtBot, tmp_path: Path
 ) -> None:
-    ran(page, qtbot)
-    click(page, CellPlace(EXCLUSIVE, 0, 0))
-    wait_for_case(page, qtbot)
+    stability_pages.ran(page, qtbot)
+    stability_pages.click(page, CellPlace(stability_pages.EXCLUSIVE, 0, 0))
+    stability_pages.wait_for_case(page, qtbot)
     QTest.keyClick(window, Qt.Key.Key_S)
-    shrunk = wait_for_shrunk(page, qtbot)
+    shrunk = stability_pages.wait_for_shrunk(page, qtbot)
     assert shrunk.sentence in page.case.verdict.text()
     assert page.case.save_button.isEnabled()
     page.save_case_to(str(tmp_path / "small.rasterscope"))
@@ -267,23 +259,23 @@ def test_a_failing_cell_is_shrunk_saved_and_opened(
 
 
 def test_a_right_cell_cannot_be_shrunk(page: StabilityPage, qtbot: QtBot) -> None:
-    ran(page, qtbot)
-    click(page, CellPlace("coverage=exact", 0, 0))
-    wait_for_case(page, qtbot)
+    stability_pages.ran(page, qtbot)
+    stability_pages.click(page, CellPlace("coverage=exact", 0, 0))
+    stability_pages.wait_for_case(page, qtbot)
     assert not page.case.shrink_button.isEnabled()
     QTest.keyClick(page.window(), Qt.Key.Key_S)
-    assert "Only a failing cell" in status(page)
-    QTest.mouseClick(page.case.close_button, LEFT)
+    assert "Only a failing cell" in stability_pages.status(page)
+    QTest.mouseClick(page.case.close_button, stability_pages.LEFT)
     QTest.keyClick(page.window(), Qt.Key.Key_Return, Qt.KeyboardModifier.ControlModifier)
-    assert "Click a cell first" in status(page)
+    assert "Click a cell first" in stability_pages.status(page)
 
 
 def test_the_precision_dial_of_a_cell_and_of_another_pixel(page: StabilityPage, qtbot: QtBot) -> None:
     page.show_named("precision-dial")
     page.choice.resolution = "coarse"
-    run(page, qtbot)
-    click(page, CellPlace("coverage=float16", 0, 0))
-    wait_for_case(page, qtbot)
+    stability_pages.run(page, qtbot)
+    stability_pages.click(page, CellPlace("coverage=float16", 0, 0))
+    stability_pages.wait_for_case(page, qtbot)
     qtbot.waitUntil(lambda: bool(page.case.formats.rows), timeout=60000)
     assert page.case.formats.isVisible()
     by_format = {row.cells[0]: row for row in page.case.formats.rows}
@@ -304,9 +296,9 @@ def test_the_precision_dial_of_a_cell_and_of_another_pixel(page: StabilityPage, 
 
 
 def test_the_dial_of_a_crack_reads_the_triangles_at_it(page: StabilityPage, qtbot: QtBot) -> None:
-    ran(page, qtbot)
-    click(page, CellPlace(EXCLUSIVE, 1, 0))
-    wait_for_case(page, qtbot)
+    stability_pages.ran(page, qtbot)
+    stability_pages.click(page, CellPlace(stability_pages.EXCLUSIVE, 1, 0))
+    stability_pages.wait_for_case(page, qtbot)
     qtbot.waitUntil(lambda: bool(page.case.formats.rows), timeout=60000)
     rows = page.case.formats.rows
     triangles = {row.cells[HEAD.index("Triangle")] for row in rows}
@@ -323,7 +315,7 @@ def test_the_open_scene_is_counted(window: MainWindow, page: StabilityPage, qtbo
     page.show_named(OPEN_SCENE)
     page.choice.resolution = "coarse"
     assert window.session.document.title in page.controls.question.text()
-    atlas = run(page, qtbot)
+    atlas = stability_pages.run(page, qtbot)
     right = {each.method for each in atlas.maps if each.count(Outcome.RIGHT) == each.outcome.size}
     assert {"coverage=exact", "fill_rule=shared-edge", "fill=spans"} <= right
     assert "fill=scanline-lecture" not in right
@@ -333,7 +325,7 @@ def test_the_open_scene_is_counted(window: MainWindow, page: StabilityPage, qtbo
 
 @pytest.mark.slow
 def test_cells_grow_with_the_type(window: MainWindow, page: StabilityPage, qtbot: QtBot) -> None:
-    ran(page, qtbot)
+    stability_pages.ran(page, qtbot)
     window.appearance.set_theme("presenter")
     QApplication.processEvents()
-    assert page.maps.canvas.cell_area(CellPlace(EXCLUSIVE, 0, 0)).width() >= 24
+    assert page.maps.canvas.cell_area(CellPlace(stability_pages.EXCLUSIVE, 0, 0)).width() >= 24
