@@ -8,15 +8,8 @@ import pytest
 from hypothesis import example, given
 
 from core import Camera, ClipScene, Scene, Settings, draw_picture, render, trace
+from core.culling import normal_view
 from core.culling.culling import REASONS
-from core.culling.normal_view import (
-    by_axis,
-    by_corners,
-    eye_triangles,
-    stored_normal_view,
-    stored_turns_away,
-    turns_away,
-)
 from core.records.frame import StageCount
 from core.stages.declared import STAGES
 from core.stages.vertices import process_geometry
@@ -30,9 +23,9 @@ THIN = np.array([[[0.9, 1.0, 0, 1.5], [1.9, 0.1, 0, 0.3], [1.6, 0.37, 0, 0.66]]]
 """Its plane contains the eye but for rounding: in float64 N . V has the wrong sign."""
 
 
-def seen(scene, look=by_corners):
+def seen(scene, look=normal_view.by_corners):
     vertices = transform_vertices(scene)
-    return look(eye_triangles(vertices, np.arange(len(vertices.corners))))
+    return look(normal_view.eye_triangles(vertices, np.arange(len(vertices.corners))))
 
 
 def verdicts(scene, cull: str):
@@ -58,7 +51,7 @@ def test_its_sign_is_that_of_the_exact_determinant_for_any_w(case) -> None:
 
 def test_a_plane_through_the_eye_needs_the_exact_sign() -> None:
     assert exact_side(THIN[0]) != 0
-    _, product, _ = turns_away((THIN[0][:, [0, 1, 3]] * [1, 1, -1]).tolist(), False)
+    _, product, _ = normal_view.turns_away((THIN[0][:, [0, 1, 3]] * [1, 1, -1]).tolist(), False)
     assert np.sign(-product) == -exact_side(THIN[0])
 
 
@@ -123,7 +116,7 @@ def test_a_mirror_turns_the_corners_over_but_not_the_normal_that_a_mesh_has() ->
 
 def test_non_uniform_scaling_tilts_a_normal_that_the_matrix_itself_carries() -> None:
     scene = ball(np.diag([1.0, 3.0, 0.5, 1.0]))
-    stored = seen(scene, stored_normal_view)
+    stored = seen(scene, normal_view.stored_normal_view)
     assert np.array_equal(stored.product > 0, seen(scene).product > 0)
     corners = stored.eye.given.transpose(2, 0, 1)
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -135,7 +128,7 @@ def test_non_uniform_scaling_tilts_a_normal_that_the_matrix_itself_carries() -> 
 def test_a_matrix_without_inverse_carries_no_normal_and_drops_nothing() -> None:
     flat = ball(np.diag([1.0, 1.0, 0.0, 1.0]))
     assert not dropped(flat, "back-stored-normal").any()
-    assert np.isfinite(seen(flat, stored_normal_view).product).all()
+    assert np.isfinite(seen(flat, normal_view.stored_normal_view).product).all()
 
 
 @pytest.mark.parametrize("cull", ["back-normal", "back-axis", "back-stored-normal"])
@@ -148,11 +141,11 @@ def test_the_listing_makes_the_rows(cull: str, scene: str) -> None:
         c = {name: column[row] for name, column in found.columns.items()}
         corners, is_parallel = c["eye_corners"].tolist(), bool(c["is_parallel"])
         if cull == "back-stored-normal":
-            normal, product, _ = stored_turns_away(
+            normal, product, _ = normal_view.stored_turns_away(
                 c["object_corners"].tolist(), c["carry"].tolist(), corners[0], is_parallel
             )
         else:
-            normal, product, _ = turns_away(corners, is_parallel)
+            normal, product, _ = normal_view.turns_away(corners, is_parallel)
         assert np.array_equal(normal, c["normal"])
         assert product == c["product"]
         assert bool(product > 0) == c["applies"]
@@ -167,5 +160,5 @@ def test_a_screen_shows_what_the_picture_has() -> None:
 def test_the_axis_is_tested_in_the_same_way() -> None:
     # The classical error: this side of the left cube is seen, but leads along the camera's direction.
     scene = ALL_SCENES["jubair-backfaces"].make()
-    by_ray, along = seen(scene).product, seen(scene, by_axis).product
+    by_ray, along = seen(scene).product, seen(scene, normal_view.by_axis).product
     assert ((by_ray < 0) & (along > 0)).any()

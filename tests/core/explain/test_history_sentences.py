@@ -9,16 +9,8 @@ from hypothesis import strategies as st
 
 from core import ClipScene, Settings
 from core.methods import table
-from core.pixel_history import why
+from core.pixel_history import told, why
 from core.pixel_history.fragments import Link, PixelHistory
-from core.pixel_history.told import (
-    COUNTED,
-    SENTENCES,
-    count_sentences,
-    event_reason,
-    link_sentence,
-    verdict_sentence,
-)
 from core.settings import families
 from core.trace.source import TraceSource
 from tests.core.strategies import ANY_TRIANGLES
@@ -26,9 +18,9 @@ from tests.core.strategies import ANY_TRIANGLES
 
 def all_texts(history: PixelHistory) -> list[str]:
     """Return every sentence of a history."""
-    texts = [verdict_sentence(history), *count_sentences(history)]
+    texts = [told.verdict_sentence(history), *told.count_sentences(history)]
     for event in history.events:
-        texts += [event_reason(event), *map(link_sentence, event.chain)]
+        texts += [told.event_reason(event), *map(told.link_sentence, event.chain)]
     return texts
 
 
@@ -52,13 +44,13 @@ def test_every_history_can_be_told(case, settings, data):
 def test_no_key_is_without_a_sentence_and_no_sentence_without_a_key():
     values = {"values": np.zeros(3), "inside": np.ones(3, bool)}
     with pytest.raises(KeyError):
-        link_sentence(Link("raster", "lost", values))
-    stages = {stage for stage, _ in SENTENCES}
+        told.link_sentence(Link("raster", "lost", values))
+    stages = {stage for stage, _ in told.SENTENCES}
     assert stages == {
         *("verdict", "transform", "cull", "clip", "bin", "raster"),
         *("interpolate", "shade", "depth", "blend", "resolve"),
     }
-    assert set(COUNTED) == {
+    assert set(told.COUNTED) == {
         *("back-facing", "front-facing", "degenerate", "behind-eye"),
         *("outside-plane", "with-its-box", "behind-occluders"),
         *("clipped-away", "outside-box", "missed", "no-fragment"),

@@ -22,15 +22,8 @@ from core.explain.step_tables import step_table
 from core.explain.step_values import StepValues
 from core.explain.steps import account
 from core.methods import table
-from core.pixel_history import why
+from core.pixel_history import told, why
 from core.pixel_history.fragments import Link, PixelHistory
-from core.pixel_history.told import (
-    count_sentences,
-    event_reason,
-    event_title,
-    link_sentence,
-    verdict_sentence,
-)
 from core.records.steps import Level
 from core.scene import AnyScene
 from core.trace.source import TraceSource
@@ -206,7 +199,7 @@ def depths() -> Iterator[str]:
         made = Explanation(f"depth.{operation}", {**numbers, **changes}, (), (), None, 0)
         yield f"{account(made, 3, (5, 6))[0]} {asked.text if (asked := passes(StepValues(made, 3))) else ''}"
     values = {"stored": far, "before": near, "against": 2, "scale": 1.0}
-    yield link_sentence(Link("depth", "failed", values))
+    yield told.link_sentence(Link("depth", "failed", values))
 
 
 def window(*triangles: Any, z: Any = 0.0, w: Any = 1.0, colors: Any = None) -> ClipScene:
@@ -280,11 +273,11 @@ PIXELS: list[tuple[AnyScene, list[tuple[int, ...]], dict[str, Any]]] = [
 
 def told_of(history: PixelHistory) -> Iterator[str]:
     """Yield what became of a pixel, or of a triangle there."""
-    yield f"\nPIXEL ({history.column}, {history.row}): {history.verdict.key}: {verdict_sentence(history)}"
+    yield f"\nPIXEL ({history.column}, {history.row}): {history.verdict.key}: {told.verdict_sentence(history)}"
     for event in history.events[2:]:
         chain = ", ".join(f"{link.stage} {link.key}" for link in event.chain)
-        yield f"{event_title(event)}, {event.kind}: {event_reason(event)} ({chain})"
-    yield from count_sentences(history)
+        yield f"{told.event_title(event)}, {event.kind}: {told.event_reason(event)} ({chain})"
+    yield from told.count_sentences(history)
 
 
 def histories() -> Iterator[str]:

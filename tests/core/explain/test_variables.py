@@ -7,19 +7,10 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from core import STAGES, Settings
+from core.explain import steps
 from core.explain.latex import plain_text
 from core.explain.records import Variable
 from core.explain.step_values import StepValues
-from core.explain.steps import (
-    GIVEN,
-    HIDDEN,
-    VARIABLES,
-    VariableText,
-    load_subjects,
-    shows,
-    variables,
-    variables_of,
-)
 from core.trace.stage_trace import Explanation
 from tests.core.explain.explained_steps import all_said, rare_trace
 from widgets.inspector.variables import VariablesView, value_text
@@ -29,7 +20,7 @@ def at(stage: str, key: str, place: int = 0, settings: Settings | None = None) -
     """Return the rows of one step of a rare triangle by name."""
     traced = rare_trace("grid-ties", settings or Settings(fill="brute-force")).stage(stage)
     found = [e for e in map(traced.explain, range(1, traced.steps.count + 1)) if e and e.key == key]
-    return {variable.name: variable for variable in variables(found[place])}
+    return {variable.name: variable for variable in steps.variables(found[place])}
 
 
 def test_rows_are_distinct_readable_and_finished() -> None:
@@ -49,11 +40,11 @@ def test_what_is_known_is_shown_and_nothing_from_later() -> None:
         if explanation.key.endswith(".statement.run"):
             continue  # Its variables are those of a shader.
         step = StepValues(explanation)
-        hidden = HIDDEN.get(f"{step.stage}.{step.kind}", frozenset())
+        hidden = steps.HIDDEN.get(f"{step.stage}.{step.kind}", frozenset())
         shown = {variable.name for variable in found}
         # Columns of one name are one variable at different times.
-        of_stage, known = variables_of(step.stage, step.kind), explanation.known
-        earlier = {v.name for v in found if v.column in known or of_stage[v.column].after == GIVEN}
+        of_stage, known = steps.variables_of(step.stage, step.kind), explanation.known
+        earlier = {v.name for v in found if v.column in known or of_stage[v.column].after == steps.GIVEN}
         for name, text in of_stage.items():
             if name not in explanation.values or not np.size(explanation.values[name]):
                 continue
@@ -77,15 +68,15 @@ def test_a_decision_value_has_its_format_and_its_bits() -> None:
 
 
 def test_every_stage_has_its_variables() -> None:
-    load_subjects()
-    assert set(VARIABLES) == set(STAGES)
+    steps.load_subjects()
+    assert set(steps.VARIABLES) == set(STAGES)
 
 
 def test_no_variable_has_two_texts() -> None:
     # "Subtracting 2 · dx = NaN" was said where the spans' dx# was imported behind the lines' dx.
-    load_subjects()
+    steps.load_subjects()
     with pytest.raises(ValueError, match="raster has a variable dx already"):
-        shows("raster", {"dx": VariableText("dx#", "Extent of the edge.")})
+        steps.shows("raster", {"dx": steps.VariableText("dx#", "Extent of the edge.")})
     found = at("raster", "raster.lane-row.edge-0", 0, Settings(fill="spans"))
     assert [found[f"dx{k}"].now for k in range(3)] == [-6.0, 0.0, 6.0]
 
@@ -122,7 +113,7 @@ def test_a_kept_depth_is_not_marked() -> None:
     values |= {"column": 0, "row": 0, "quantity": "z"}
     known = ("depth", "stored", "before", "passes", "after")
     made = Explanation("depth.test.write", values, known, ("after",), None, 0)
-    found = {variable.name: variable for variable in variables(made)}
+    found = {variable.name: variable for variable in steps.variables(made)}
     assert not found["depth buffer"].is_changed()
 
 
@@ -135,7 +126,7 @@ def test_vectors_are_tuples_and_texels_get_rows() -> None:
         "row": 0,
     }
     made = Explanation("shade.textured.texels", values, tuple(values), ("texels", "texel_colors"), None, 0)
-    found = {variable.name: variable for variable in variables(made)}
+    found = {variable.name: variable for variable in steps.variables(made)}
     assert found["texel 3"].now == (2.0, 3.0)
     assert found["texel colour 1"].now == (4.0, 5.0, 6.0, 7.0)
     assert found["x, y in texels"].now == (1.5, 2.5)
@@ -145,7 +136,7 @@ def test_vectors_are_tuples_and_texels_get_rows() -> None:
 
 
 def test_an_unknown_stage_shows_nothing() -> None:
-    assert variables(Explanation("lines.walk.next-pixel", {"x": 1.0}, ("x",), ("x",), None, 0)) == ()
+    assert steps.variables(Explanation("lines.walk.next-pixel", {"x": 1.0}, ("x",), ("x",), None, 0)) == ()
 
 
 def test_the_view_shows_them(qtbot: QtBot) -> None:

@@ -8,16 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import render
-from core.transform.assembly import (
-    ASSEMBLIES,
-    assemble,
-    line_loop,
-    line_strip,
-    polygon,
-    quads,
-    triangle_fan,
-    triangle_strip,
-)
+from core.transform import assembly
 
 SQUARE = [[0.0, 0], [4, 0], [4, 4], [0, 4]]
 ARROW = [[0.0, 0], [4, 2], [0, 4], [1, 2]]
@@ -31,11 +22,11 @@ def doubled_area(points: list) -> Fraction:
 
 
 def test_strips_fans_and_quads_are_those_of_opengl() -> None:
-    assert line_strip(4).tolist() == [[0, 1], [1, 2], [2, 3]]
-    assert line_loop(3).tolist() == [[0, 1], [1, 2], [2, 0]]
-    assert triangle_strip(6).tolist() == [[0, 1, 2], [2, 1, 3], [2, 3, 4], [4, 3, 5]]
-    assert triangle_fan(5).tolist() == [[0, 1, 2], [0, 2, 3], [0, 3, 4]]
-    assert quads(8).tolist() == [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]]
+    assert assembly.line_strip(4).tolist() == [[0, 1], [1, 2], [2, 3]]
+    assert assembly.line_loop(3).tolist() == [[0, 1], [1, 2], [2, 0]]
+    assert assembly.triangle_strip(6).tolist() == [[0, 1, 2], [2, 1, 3], [2, 3, 4], [4, 3, 5]]
+    assert assembly.triangle_fan(5).tolist() == [[0, 1, 2], [0, 2, 3], [0, 3, 4]]
+    assert assembly.quads(8).tolist() == [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]]
 
 
 @pytest.mark.parametrize("corners", [SQUARE, ARROW, COMB, FLAT])
@@ -43,7 +34,7 @@ def test_strips_fans_and_quads_are_those_of_opengl() -> None:
 def test_the_triangles_of_a_polygon_have_its_area_and_its_winding(corners: list, step: int) -> None:
     corners = corners[::step]
     whole = doubled_area(corners)
-    parts = [doubled_area([corners[k] for k in triangle]) for triangle in polygon(corners).tolist()]
+    parts = [doubled_area([corners[k] for k in triangle]) for triangle in assembly.polygon(corners).tolist()]
     assert sum(parts) == whole
     assert all(part * whole >= 0 for part in parts)
 
@@ -55,13 +46,13 @@ def test_a_star_is_filled_exactly_once(radii: list) -> None:
     corners = (
         np.array([r for r, _ in radii])[:, None] * np.stack([np.cos(angles), np.sin(angles)], 1)
     ).tolist()
-    parts = [doubled_area([corners[k] for k in triangle]) for triangle in polygon(corners).tolist()]
+    parts = [doubled_area([corners[k] for k in triangle]) for triangle in assembly.polygon(corners).tolist()]
     assert len(parts) == len(corners) - 2
     assert sum(parts) == doubled_area(corners)
     assert min(parts) >= 0
 
 
-@pytest.mark.parametrize("name", ASSEMBLIES)
+@pytest.mark.parametrize("name", assembly.ASSEMBLIES)
 def test_shared_vertices_draw_no_pixel_twice(name: str) -> None:
     if name == "triangles":
         return
@@ -69,7 +60,7 @@ def test_shared_vertices_draw_no_pixel_twice(name: str) -> None:
     if name == "triangle-strip":
         corners = corners[[0, 1, 3, 2]]
     clip = np.concatenate([corners / 2 - 1, np.zeros((4, 1)), np.ones((4, 1))], axis=1)
-    scene = assemble(name, clip, np.eye(4), size=(8, 8))
+    scene = assembly.assemble(name, clip, np.eye(4), size=(8, 8))
     assert scene.shared is not None
     frame = render(scene)
     assert frame.cover_count.max() == 1
@@ -89,7 +80,7 @@ def test_shared_vertices_draw_no_pixel_twice(name: str) -> None:
 )
 def test_a_polygon_that_is_not_simple_is_refused(corners: list, message: str) -> None:
     with pytest.raises(ValueError, match=message):
-        polygon(corners)
+        assembly.polygon(corners)
 
 
 @pytest.mark.parametrize(
@@ -104,4 +95,4 @@ def test_a_polygon_that_is_not_simple_is_refused(corners: list, message: str) ->
 )
 def test_what_cannot_be_assembled_is_refused(name: str, clip: object, message: str) -> None:
     with pytest.raises(ValueError, match=message):
-        assemble(name, clip)
+        assembly.assemble(name, clip)

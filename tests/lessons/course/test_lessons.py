@@ -6,18 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from lessons.course.catalogue import (
-    FOLDER,
-    Lesson,
-    chapters,
-    coverage,
-    estimated_minutes,
-    explorations,
-    read_lesson,
-    shipped,
-    slides,
-    with_folders,
-)
+from lessons.course import catalogue
 from lessons.course.record import SolutionPart
 from lessons.course.state import States, solved
 from lessons.course.tasks import is_done
@@ -25,27 +14,29 @@ from lessons.course.validation import situation_of, validate
 from tests.lessons.course.lesson_texts import GOOD
 from tests.texts import cases_of
 
-FILES = sorted(path for path in FOLDER.glob("*.toml") if path.name not in ("order.toml", "slides.toml"))
+FILES = sorted(
+    path for path in catalogue.FOLDER.glob("*.toml") if path.name not in ("order.toml", "slides.toml")
+)
 
 
-def lesson_of(folder: Path, text: str, name: str = "whose-pixel") -> Lesson:
+def lesson_of(folder: Path, text: str, name: str = "whose-pixel") -> catalogue.Lesson:
     path = folder / f"{name}.toml"
     path.write_text(text, encoding="utf-8")
-    return read_lesson(path)
+    return catalogue.read_lesson(path)
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_a_lesson_says_what_is_so(path: Path) -> None:
-    lesson = read_lesson(path)
-    validate(lesson, shipped().lessons)
-    listed, part = shipped().named(lesson.name), lesson.part
+    lesson = catalogue.read_lesson(path)
+    validate(lesson, catalogue.shipped().lessons)
+    listed, part = catalogue.shipped().named(lesson.name), lesson.part
     assert (listed.title, listed.question, listed.minutes) == (part.title, part.question, part.minutes)
     assert (listed.stage, listed.step_count) == (part.state.stage, len(part.step))
 
 
 @pytest.mark.parametrize("matrices", ["modelViewMatrix * projectionMatrix", "projectionMatrix"])
 def test_matrices_in_a_wrong_order_do_not_write_a_shader(matrices: str) -> None:
-    lesson = shipped().named("write-a-shader")
+    lesson = catalogue.shipped().named("write-a-shader")
     state, until = States(lesson).of_step(2), lesson.steps[2].until
     assert until is not None
     written = solved(state, SolutionPart(edit=[["vertex", "= modelViewMatrix", f"= {matrices}"]]))
@@ -54,30 +45,32 @@ def test_matrices_in_a_wrong_order_do_not_write_a_shader(matrices: str) -> None:
 
 def test_the_minutes_of_all_lessons_mean_the_same() -> None:
     far = {
-        name: (lesson.minutes, round(estimated_minutes(lesson), 1))
-        for name, lesson in shipped().lessons.items()
-        if abs(lesson.minutes - estimated_minutes(lesson)) > max(2, lesson.minutes / 4)
+        name: (lesson.minutes, round(catalogue.estimated_minutes(lesson), 1))
+        for name, lesson in catalogue.shipped().lessons.items()
+        if abs(lesson.minutes - catalogue.estimated_minutes(lesson)) > max(2, lesson.minutes / 4)
     }
     assert far == {}
 
 
 def test_the_order_names_each_lesson_once() -> None:
-    assert shipped().problems == ()
-    names = list(chain(*chapters().values()))
+    assert catalogue.shipped().problems == ()
+    names = list(chain(*catalogue.chapters().values()))
     assert sorted(names) == [path.stem for path in FILES]
-    assert list(shipped().lessons) == names
-    assert sorted(lesson.name for lessons in shipped().by_stage.values() for lesson in lessons) == sorted(
-        names
-    )
+    assert list(catalogue.shipped().lessons) == names
+    assert sorted(
+        lesson.name for lessons in catalogue.shipped().by_stage.values() for lesson in lessons
+    ) == sorted(names)
 
 
 def test_each_slide_is_covered_or_has_a_reason() -> None:
-    covered = coverage(shipped().lessons.values())
-    assert [slide.name for slide in slides() if bool(covered[slide.name]) == bool(slide.reason)] == []
+    covered = catalogue.coverage(catalogue.shipped().lessons.values())
+    assert [
+        slide.name for slide in catalogue.slides() if bool(covered[slide.name]) == bool(slide.reason)
+    ] == []
 
 
 def test_the_next_lesson_is_the_named_one_or_the_next_in_the_list() -> None:
-    course = shipped()
+    course = catalogue.shipped()
     lessons = list(course.lessons.values())
     for lesson, following in zip(lessons, [*lessons[1:], None], strict=True):
         named = lesson.part.next
@@ -85,7 +78,7 @@ def test_the_next_lesson_is_the_named_one_or_the_next_in_the_list() -> None:
 
 
 def test_a_lesson_recalls_an_earlier_one() -> None:
-    course = shipped()
+    course = catalogue.shipped()
     order = list(course.lessons)
     for place, lesson in enumerate(course.lessons.values()):
         about = course.recalled(lesson)
@@ -96,9 +89,9 @@ def test_a_lesson_recalls_an_earlier_one() -> None:
 
 
 def test_explorations_are_steps_that_surprise() -> None:
-    assert len(explorations()) == 8
-    for each in explorations():
-        assert 0 <= each.step < len(shipped().named(each.lesson).steps)
+    assert len(catalogue.explorations()) == 8
+    for each in catalogue.explorations():
+        assert 0 <= each.step < len(catalogue.shipped().named(each.lesson).steps)
         assert each.title.isprintable()
 
 
@@ -142,8 +135,8 @@ def test_the_rest_of_a_folder_opens(tmp_path: Path) -> None:
         file.truncate(50_000_000)
     (tmp_path / "bytes.toml").write_bytes(b"\xff\xfe")
     (tmp_path / "folder.toml").mkdir()
-    course = with_folders([tmp_path, tmp_path / "none"])
-    assert [*course.lessons] == [*shipped().lessons, "mine"]
+    course = catalogue.with_folders([tmp_path, tmp_path / "none"])
+    assert [*course.lessons] == [*catalogue.shipped().lessons, "mine"]
     assert len(course.problems) == 7
     assert f"{tmp_path / 'huge.toml'}: expected a file of up to 64 KiB" in course.problems
     taken = f"{tmp_path / 'shared-edges.toml'}: expected another name: there is a lesson shared-edges already"

@@ -6,25 +6,16 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox
 
 from widgets.basics.theme import DARK, LIGHT
+from widgets.grid import layers
 from widgets.grid.insets import OverlayLegend, swatch
-from widgets.grid.layers import (
-    BlockOverlay,
-    BlockState,
-    CellMark,
-    CountOverlay,
-    MaskOverlay,
-    Overlay,
-    SegmentOverlay,
-    SpanOverlay,
-)
 
 MASK = np.ones((2, 2), np.bool_)
-OVERLAYS: list[Overlay] = [
-    *[MaskOverlay(mark.name, mark, MASK) for mark in CellMark],
-    CountOverlay("overdraw", np.ones((2, 2), np.int32)),
-    BlockOverlay("blocks", np.array([[0, 0, 2, 2]]), (BlockState.LEAF,)),
-    SpanOverlay("spans", np.array([[0, 0, 2]])),
-    SegmentOverlay("lines", np.zeros((2, 2, 2)), (0, 2)),
+OVERLAYS: list[layers.Overlay] = [
+    *[layers.MaskOverlay(mark.name, mark, MASK) for mark in layers.CellMark],
+    layers.CountOverlay("overdraw", np.ones((2, 2), np.int32)),
+    layers.BlockOverlay("blocks", np.array([[0, 0, 2, 2]]), (layers.BlockState.LEAF,)),
+    layers.SpanOverlay("spans", np.array([[0, 0, 2]])),
+    layers.SegmentOverlay("lines", np.zeros((2, 2, 2)), (0, 2)),
 ]
 
 
@@ -60,7 +51,8 @@ def test_the_next_step_keeps_what_is_on(legend: OverlayLegend, qtbot) -> None:
     kept = box(legend, "tie")
     with qtbot.assertNotEmitted(legend.overlays_changed):
         legend.show_overlays(
-            [MaskOverlay(mark.name, mark, ~MASK) for mark in CellMark] + OVERLAYS[len(CellMark) :]
+            [layers.MaskOverlay(mark.name, mark, ~MASK) for mark in layers.CellMark]
+            + OVERLAYS[len(layers.CellMark) :]
         )
     assert box(legend, "tie") is kept
     assert kept.isChecked()

@@ -7,28 +7,17 @@ import numpy as np
 import pytest
 
 from core.settings import Settings
-from core.study import speed_accuracy
+from core.study import record, speed_accuracy
 from core.study.family import Assignment, Candidate, StudyFamily, Task
-from core.study.record import (
-    ErrorMeasure,
-    Judgement,
-    Point,
-    Study,
-    WorkKind,
-    judged,
-    median_interval,
-    pareto_front,
-    ranks,
-)
 from core.study.speed_accuracy import measure
 from tests.core.study.accuracy.order_agreement import kendall_tau
 
 NAMES = ("last-drawn", "painters", "z-buffer", "ray-casting")
-WRONG = ErrorMeasure("wrong", "Wrong", "")
+WRONG = record.ErrorMeasure("wrong", "Wrong", "")
 
 
-def point(name: str, seconds: list[float], wrong: float = 0.0) -> Point:
-    return Point(name, name, np.array(seconds), 1, {}, {"wrong": wrong})
+def point(name: str, seconds: list[float], wrong: float = 0.0) -> record.Point:
+    return record.Point(name, name, np.array(seconds), 1, {}, {"wrong": wrong})
 
 
 class FakeTask(Task):
@@ -49,21 +38,21 @@ class FakeTask(Task):
     def counts(self, settings: Settings, made: str) -> dict[str, int]:
         return {}
 
-    def judge(self, settings: Settings, made: str) -> Judgement:
-        return judged({"wrong": 0.0})
+    def judge(self, settings: Settings, made: str) -> record.Judgement:
+        return record.judged({"wrong": 0.0})
 
     def pictures(self, settings: Settings, made: str):
         raise NotImplementedError
 
 
-def timed(monkeypatch: pytest.MonkeyPatch, seconds: Callable[[str, int], float], **options) -> Study:
+def timed(monkeypatch: pytest.MonkeyPatch, seconds: Callable[[str, int], float], **options) -> record.Study:
     """Measure four methods whose blocks take the seconds of a function."""
 
     class Four(StudyFamily):
         def candidates(self, base: Settings) -> tuple[Candidate, ...]:
             return tuple(Candidate(f"visibility={name}", name) for name in NAMES)
 
-    kind = WorkKind("work", "Work", "frame")
+    kind = record.WorkKind("work", "Work", "frame")
 
     def make(assignment: Assignment) -> FakeTask:
         return FakeTask(seconds)
@@ -81,38 +70,38 @@ def true_time(name: str) -> float:
 
 def test_an_interval_of_the_median_leaves_out_as_many_runs_as_chance_allows() -> None:
     # The true median lies outside the second and the eighth of nine runs with chance 2 (1 + 9) / 2^9 = 0.039.
-    assert median_interval(np.arange(9.0)) == (1, 7)
-    assert median_interval(np.arange(6.0)) == (0, 5)
-    assert median_interval(np.arange(3.0)) == (0, 2)
-    low, high = median_interval(np.arange(100.0))
+    assert record.median_interval(np.arange(9.0)) == (1, 7)
+    assert record.median_interval(np.arange(6.0)) == (0, 5)
+    assert record.median_interval(np.arange(3.0)) == (0, 2)
+    low, high = record.median_interval(np.arange(100.0))
     assert (low, high) == (39, 60)
 
 
 def test_methods_share_ranks_where_intervals_overlap() -> None:
     fast, slow = point("fast", [1.0] * 9), point("slow", [2.0] * 9)
     wide = point("wide", [1.05, 1.1, 1.2, 1.3, 1.5, 1.8, 2.0, 2.1, 2.2])
-    assert ranks((slow, fast)) == {"fast": (1, 1), "slow": (2, 2)}
-    assert ranks((slow, fast, wide)) == {"fast": (1, 1), "wide": (2, 3), "slow": (2, 3)}
+    assert record.ranks((slow, fast)) == {"fast": (1, 1), "slow": (2, 2)}
+    assert record.ranks((slow, fast, wide)) == {"fast": (1, 1), "wide": (2, 3), "slow": (2, 3)}
 
 
 def test_few_runs_tell_only_large_differences_apart() -> None:
-    assert ranks((point("a", [1.0]), point("b", [1.25]))) == {"a": (1, 2), "b": (1, 2)}
-    assert ranks((point("a", [1.0]), point("b", [1.4]))) == {"a": (1, 1), "b": (2, 2)}
+    assert record.ranks((point("a", [1.0]), point("b", [1.25]))) == {"a": (1, 2), "b": (1, 2)}
+    assert record.ranks((point("a", [1.0]), point("b", [1.4]))) == {"a": (1, 1), "b": (2, 2)}
 
 
 def test_the_front_does_not_part_what_is_not_told_apart() -> None:
     blurred = [1.0, 1.1, 1.2, 1.3, 1.5, 1.8, 2.0, 2.1, 2.2]
     exact, rough = point("exact", blurred, 0.0), point("rough", [value * 0.99 for value in blurred], 5.0)
     # A hair faster in the median, but not for sure, and worse: no reason to take it.
-    assert pareto_front((rough, exact), "wrong") == (exact,)
+    assert record.pareto_front((rough, exact), "wrong") == (exact,)
     surely = point("surely", [0.1] * 9, 5.0)
-    assert pareto_front((surely, rough, exact), "wrong") == (surely, exact)
+    assert record.pareto_front((surely, rough, exact), "wrong") == (surely, exact)
 
 
 def test_steady_times_take_no_more_than_the_rounds(monkeypatch: pytest.MonkeyPatch) -> None:
     study = timed(monkeypatch, lambda name, _: true_time(name), rounds=9)
     assert [len(each.seconds) for each in study.points] == [9] * 4
-    assert list(ranks(study.points).values()) == [(1, 1), (2, 2), (3, 3), (4, 4)]
+    assert list(record.ranks(study.points).values()) == [(1, 1), (2, 2), (3, 3), (4, 4)]
 
 
 def busy(name: str, block: int) -> float:
@@ -127,7 +116,7 @@ def test_a_busy_machine_takes_more_rounds_and_ends_in_the_same_order(monkeypatch
     loud = timed(monkeypatch, busy, rounds=9, progress=lambda fraction, _: fractions.append(fraction))
     assert all(len(each.seconds) > 9 for each in loud.points)
     assert fractions == sorted(fractions)
-    assert ranks(loud.points) == ranks(quiet.points)
+    assert record.ranks(loud.points) == record.ranks(quiet.points)
     assert kendall_tau(quiet.points, loud.points) == 1
     assert [each.least for each in loud.points] == [each.least for each in quiet.points]
 
@@ -139,7 +128,7 @@ def test_an_order_that_never_settles_is_left_undecided(monkeypatch: pytest.Monke
 
     study = timed(monkeypatch, wild, rounds=9)
     assert {len(each.seconds) for each in study.points} == {9 * speed_accuracy.MOST_TIMES}
-    assert max(last - first for first, last in ranks(study.points).values()) > 0
+    assert max(last - first for first, last in record.ranks(study.points).values()) > 0
 
 
 def test_few_rounds_are_not_extended(monkeypatch: pytest.MonkeyPatch) -> None:
