@@ -171,6 +171,8 @@ class Companion(StageView):
 
     is_alike = False
     """Whether it is a picture like the main one: then both have titles, and may lie one above the other."""
+    is_all_done = False
+    """Whether it shows nothing that a later step finds: then it is seen while that step is to be predicted."""
 
     def is_wanted(self, moment: Moment) -> bool:
         """Return whether it has something to show at the stage of the cursor."""

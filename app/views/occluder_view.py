@@ -18,7 +18,7 @@ WITHOUT_DEPTH = ("occluder", "no-occluder")
 class OccludersBeside(OpensPass):
     """A level of the pyramid, and the pass that draws its bottom."""
 
-    name, is_alike = "occluders", False
+    name, is_alike, is_all_done = "occluders", False, True
 
     def make_widget(self) -> QWidget:
         """Return the grid below its title, with a menu."""

@@ -42,6 +42,8 @@ class VariableText:
     """The variable that holds its value before the step, where there was one."""
     is_key: bool = False
     """Whether it is a packed key, to be shown in hexadecimal."""
+    absent: str = ""
+    """The variable that is below 0 where this one has no value: then it is ``nothing``."""
 
 
 VARIABLES: dict[str, dict[str, VariableText]] = {}
@@ -111,7 +113,7 @@ def held_values(step: StepValues) -> list[Held]:
     held = []
     for label, times in found.items():
         *earlier, (_, name, text) = sorted(times, key=lambda time: time[0])
-        now = values[name]
+        now = "nothing" if text.absent and step.whole(text.absent) < 0 else values[name]
         before: Any = now
         if name in explanation.changed:
             before = values[earlier[-1][1]] if earlier else values.get(text.previous)

@@ -27,7 +27,7 @@ from core.scene import Texture
 from core.shading.lighting import dot, inner, planes
 from core.textures.look_up import bilinear_color, sample_texture
 
-FACES = ("+x", "-x", "+y", "-y", "+z", "-z")
+FACES = ("+x", "−x", "+y", "−y", "+z", "−z")
 """The six faces: face 2 k looks along axis k, face 2 k + 1 against it."""
 ACROSS = ((2, 1), (2, -1), (0, 1), (0, 1), (0, -1), (0, 1))
 """By face, the axis of the world that runs to the right of its picture, and with which sign."""

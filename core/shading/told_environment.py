@@ -27,7 +27,7 @@ def cosine(step: StepValues) -> Said:
     """How much of the direction from the eye runs along the normal."""
     n, incoming, found = step.vector("normal"), _incoming(step), step.number("n_dot_i")
     side = "against the normal" if found < 0 else "along the normal" if found > 0 else "across the normal"
-    text = f"{step.pixel_name}: the direction from the eye I = -V has N·I = {spoken(found)} and runs {side}."
+    text = f"{step.pixel_name}: the direction from the eye I = −V has N·I = {spoken(found)} and runs {side}."
     return text, formula_of(named(r"N \cdot I", found).equals(by_axes("N", n, "I", incoming)))
 
 
@@ -134,7 +134,7 @@ shows(
         "own_color": VariableText("own colour", "Colour before what is mirrored is added."),
         "n_dot_i": VariableText("N·I", "Cosine between the normal and the direction from the eye."),
         "reflected": VariableText("R", "Mirrored direction, in world space."),
-        "face": VariableText("face", "Face of the map: 0 to 5 for +x, -x, +y, -y, +z, -z."),
+        "face": VariableText("face", "Face of the map: 0 to 5 for +x, −x, +y, −y, +z, −z."),
         "face_place": VariableText("u, v on the face", "Place there, 0 to 1 across and up."),
         "face_shares": VariableText("share, texel #", "Share of a texel in what is seen.", spread="parts"),
         "met": VariableText("met", "The triangle that the ray meets first; -1: none."),

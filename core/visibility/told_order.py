@@ -20,8 +20,10 @@ shows(
             lambda step: f"{_depth(step)}#", "Depth of the corner along the view.", spread="parts"
         ),
         "distance": VariableText("D", "Sum of the corners' depths, three times their mean."),
-        "other": VariableText("before it", "The triangle just before it in the order so far."),
-        "other_distance": VariableText("D before", "The sum of that one's depths.", "other"),
+        "other": VariableText(
+            "before it", "The triangle just before it in the order so far.", absent="other"
+        ),
+        "other_distance": VariableText("D before", "The sum of that one's depths.", "other", absent="other"),
         "place": VariableText("place", "Place in the drawing order, counted from 0."),
     },
 )

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from core.methods import table
+from core.settings import FIELDS
 from lessons.course.quoted import Situation, flags_of, is_right, value_of
 from lessons.course.record import UntilPart
 from lessons.course.tasks import fails_on, first_open, is_kept
@@ -65,14 +66,14 @@ def _counted(until: UntilPart, situation: Situation, start: Situation) -> str:
 def _settings(until: UntilPart, situation: Situation, start: Situation) -> str:
     chosen = until.settings
     family = next(name for name in chosen if getattr(situation.settings, name) != chosen[name])
-    return f"the task asks for another method of {family.replace('_', ' ')}"
+    return f"the task asks for another choice of {FIELDS[family].title}"
 
 
 def _keeps(until: UntilPart, situation: Situation, start: Situation) -> str:
     lost = next(name for name in until.keeps if not is_kept(name, situation, start))
-    return KEPT_TEXTS.get(
-        lost, f"the task keeps the method of {lost.replace('_', ' ')}, and another one is chosen"
-    )
+    if lost in KEPT_TEXTS:
+        return KEPT_TEXTS[lost]
+    return f"the task keeps the choice of {FIELDS[lost].title}, and another one is made"
 
 
 def _drawn(until: UntilPart, situation: Situation, start: Situation) -> str:

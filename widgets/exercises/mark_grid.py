@@ -4,7 +4,7 @@ from collections.abc import Collection, Sequence
 from typing import Any
 
 import numpy as np
-from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, Qt, Signal, Slot
+from PySide6.QtCore import QEvent, QLineF, QPointF, QRectF, QSize, Qt, Signal, Slot
 from PySide6.QtGui import QColor, QFocusEvent, QIcon, QKeyEvent, QMouseEvent, QPainter, QPen
 from PySide6.QtWidgets import QLabel, QListWidget, QSizePolicy, QWidget
 
@@ -102,8 +102,7 @@ def _label_box(painter: QPainter, text: str) -> QRectF:
     return QRectF(0, 0, metrics.horizontalAdvance(text) + 10, metrics.height() + 2)
 
 
-# A pixel grid that is answered on: click, drag, or arrows and Space mark pixels; points are placed the same
-# way.
+# A pixel grid that is answered on: click, drag, or arrows and Space mark pixels and place points.
 
 
 NOTHING: Pixels = frozenset()
@@ -310,12 +309,23 @@ class MarkGrid(PixelGrid):
         if self._is_paintable and self.hasFocus() and self.pin() is None and not self._points.names:
             self.show_pin((0, self._size[1] - 1))
 
+    def event(self, event: QEvent) -> bool:
+        """Keep its keys from the shortcuts of the window while it is marked, also after a click."""
+        if event.type() == QEvent.Type.ShortcutOverride and self._is_own(event):
+            event.accept()
+            return True
+        return super().event(event)
+
+    def _is_own(self, event: QEvent) -> bool:
+        if not self._is_paintable or not isinstance(event, QKeyEvent) or event.modifiers() & _WINDOWS_OWN:
+            return False
+        return event.key() in (*_MOVES, Qt.Key.Key_Space, Qt.Key.Key_Home, Qt.Key.Key_End)
+
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Go with the arrows and mark with Space, or choose a point with Space and move it with the arrows."""
         self.gesture += 1
         key, is_shifted = Qt.Key(event.key()), bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
-        is_own = key in _MOVES or key in (Qt.Key.Key_Space, Qt.Key.Key_Home, Qt.Key.Key_End)
-        if not self._is_paintable or not is_own or event.modifiers() & _WINDOWS_OWN:
+        if not self._is_own(event):
             super().keyPressEvent(event)
         elif self._points.names:
             self._go_points(key, is_shifted)

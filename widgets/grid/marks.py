@@ -158,29 +158,29 @@ class StepMark:
 
     def reach(self, placement: GridPlacement) -> QRectF:
         """Return where in the widget something is marked; of nothing, nothing."""
-        if len(self.lines) or len(self.points):
-            is_drawn = np.isfinite(self.lines).all(axis=(1, 2))
-            places = np.concatenate([self.lines[is_drawn].reshape(-1, 2), self.points])
-            places = places[np.isfinite(places).all(axis=1)]
-            if not len(places):
-                return QRectF()
+        found = QRectF()
+        pixels = np.concatenate([self.pixels, self.trail])
+        if len(pixels):
+            (column0, row0), (column1, row1) = pixels.min(axis=0).tolist(), pixels.max(axis=0).tolist()
+            found = placement.cells_rect(column0, row0, column1 - column0 + 1, row1 - row0 + 1)
+        is_drawn = np.isfinite(self.lines).all(axis=(1, 2))
+        places = np.concatenate([self.lines[is_drawn].reshape(-1, 2), self.points])
+        places = places[np.isfinite(places).all(axis=1)]
+        if len(places):
             (left, low), (right, high) = places.min(axis=0).tolist(), places.max(axis=0).tolist()
             ring = _RING + 3.0  # with its pen
             around = QRectF(placement.to_widget(left, high), placement.to_widget(right, low))
-            return around.adjusted(-ring, -ring, ring, ring).intersected(QRectF(placement.viewport))
-        pixels = np.concatenate([self.pixels, self.trail])
-        if not len(pixels):
-            return QRectF()
-        (column0, row0), (column1, row1) = pixels.min(axis=0).tolist(), pixels.max(axis=0).tolist()
-        return placement.cells_rect(column0, row0, column1 - column0 + 1, row1 - row0 + 1)
+            found |= around.adjusted(-ring, -ring, ring, ring).intersected(QRectF(placement.viewport))
+        return found
 
     @cached_property
     def crossed(self) -> set[tuple[int, int]]:
-        """Columns and rows of the pixels that the trail runs through: asked for at every painting."""
+        """Columns and rows of the pixels that trail and lines run through: asked for at every painting."""
         found: set[tuple[int, int]] = set()
-        for start, end in itertools.pairwise(self.trail):
-            count = 2 * int(np.abs(end - start).max()) + 1
-            places = np.floor(np.linspace(start + 0.5, end + 0.5, count)).astype(int)
+        lines = self.lines[np.isfinite(self.lines).all(axis=(1, 2))]
+        for start, end in [*itertools.pairwise(self.trail + 0.5), *lines]:
+            count = 2 * min(ceil(np.abs(end - start).max()), 4096) + 1  # Of a longer line most is outside.
+            places = np.floor(np.linspace(start, end, count)).astype(int)
             found.update(map(tuple, places.tolist()))
         return found
 

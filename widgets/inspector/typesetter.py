@@ -114,7 +114,8 @@ def typesetter_font() -> Path:
 
 
 def _typeset(latex: str, color: str, size: float) -> TypesetCell:
-    guarded = MATRIX_WITH_SCRIPT.sub(r"{\1}", latex)
+    # The typesetter spaces the sign of a number in brackets like a difference.
+    guarded = MATRIX_WITH_SCRIPT.sub(r"{\1}", latex).replace("(-", "({-}")
     try:
         drawing = str(_typesetting().Latex(guarded, size=size, color=color, margin=0.5).svg())
     # The typesetter and its LaTeX reader raise anything, even AssertionError and KeyError, on odd text.

@@ -268,8 +268,8 @@ class LessonTask(QObject):
         if is_right:
             self.standing_changed.emit(Standing.DONE if is_first else Standing.SEEN)
             self._conclude(RIGHT, is_right=True)
-        elif self._has_evidence():
-            self.view.reveal_button.setText(SHOW_ME)
+        else:
+            self.view.reveal_button.setText(SHOW_ME if self._has_evidence() else REVEAL)
         self.ended.emit(float(is_right and is_first), judged)
 
     @Slot()

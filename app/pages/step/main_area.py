@@ -266,12 +266,12 @@ class MainArea(QWidget):
 
     @Slot()
     def _show_beside(self) -> None:
-        if not self._has_two_sides() or (self._moment.is_predicting and self.gives_room):
+        companion = self._companion() if self._has_two_sides() else None
+        is_veiled = self._moment.is_predicting and companion is not None and not companion.is_all_done
+        if companion is None or (is_veiled and self.gives_room):
             self.beside.hide()
             self._main_title.hide()
             return
-        companion = self._companion()
-        assert companion is not None
         is_stacked = self._are_stacked(companion)
         self._sides.setDirection(
             QBoxLayout.Direction.TopToBottom if is_stacked else QBoxLayout.Direction.LeftToRight
@@ -283,7 +283,7 @@ class MainArea(QWidget):
         for side, share in enumerate(shares):
             self._sides.setStretch(side, share)
         self._main_title.setVisible(companion.is_alike)
-        if self._moment.is_predicting:
+        if is_veiled:
             # It keeps its place, so that the main view keeps its own.
             self.beside.setCurrentWidget(self._veil)
         else:

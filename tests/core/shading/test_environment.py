@@ -267,7 +267,7 @@ def test_picture_trace_and_listing_agree(method: str, others: dict[str, str | in
 def test_the_map_is_what_its_passes_draw_and_is_kept() -> None:
     chosen = Settings(environment="cube", environment_size=8)
     planned = planned_passes(CUBE, chosen)
-    assert [each.title for each in planned][::5] == ["What mirror sees along +x", "What mirror sees along -z"]
+    assert [each.title for each in planned][::5] == ["What mirror sees along +x", "What mirror sees along −z"]
     for face, each in zip(drawn_faces(planned), planned, strict=True):
         assert np.array_equal(face.pixels, render(each.scene, each.settings).color[..., :3])
     moved = replace(CUBE, camera=replace(CUBE.camera, eye=np.array([3.0, 5, 5])))

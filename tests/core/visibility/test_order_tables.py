@@ -5,6 +5,7 @@ import pytest
 
 from core import ClipScene, Settings, render, trace
 from core.explain.step_tables import step_table
+from core.explain.steps import variables
 from core.pixel_history import why
 from core.pixel_history.told import event_reason
 from core.visibility.newell import examine_pairs, find_cycle
@@ -64,6 +65,13 @@ def test_the_tables_say_why_the_sort_fails_and_what_the_tree_did() -> None:
     assert "pass through each other" in notes["intersecting", "painters"]
     assert "3 cuts made 9 pieces of 3 triangles" in notes["circle-of-bars", "bsp"]
     assert "1 cut made 4 pieces of 2 triangles" in notes["intersecting", "bsp"]
+
+
+def test_the_first_of_an_order_has_nothing_before_it() -> None:
+    found = trace(make_scene("circle-of-bars"), Settings(visibility="painters")).stage("depth")
+    first = int(np.flatnonzero(found.steps.kind == found.steps.kinds.index("place"))[0])
+    shown = variables(found.explain(int(found.steps.starts[first + 1])))
+    assert [(each.name, each.now) for each in shown] == [("before it", "nothing"), ("D before", "nothing")]
 
 
 def test_a_piece_is_painted_over_because_of_a_plane_with_the_eye_on_its_side() -> None:

@@ -148,20 +148,31 @@ def test_no_mark_of_a_step_strikes_out_what_is_written(qtbot) -> None:
     theme, placement = current_theme(), widget.placement()
     trail = np.array([[0, 6], [5, 6], [0, 4]])
     every_other = np.argwhere(np.indices((8, 8)).sum(axis=0) % 2)
-    mark = StepMark(every_other, lines=np.array([[[0.0, 0.6], [8.0, 0.6]]]), trail=trail)
+    mark = StepMark(every_other, lines=np.array([[[0.0, 0.3], [8.0, 0.3]]]), trail=trail)
     buffer = widget.buffer()
     assert buffer is not None
     written = [box.toRect() for box, _, _ in widget.names()]
     assert len(written) == 6
     writing = number_writing(placement, buffer, theme)
     assert writing is not None
-    written += [*number_boxes(placement, buffer, writing, mark.crossed)]
+    inside = {cell for cell in mark.crossed if max(cell) < 8}
+    assert inside > {(column, 0) for column in range(8)}
+    written += [*number_boxes(placement, buffer, writing, inside)]
     before = picture(widget)
     widget.show_step(mark)
     after = picture(widget)
     assert after != before
     for box in written:
         assert after.copy(box) == before.copy(box)
+
+
+def test_a_mark_of_pixels_and_lines_reaches_to_both(qtbot) -> None:
+    widget = PixelGrid()
+    qtbot.addWidget(widget)
+    widget.resize(500, 500)
+    widget.show_buffer(GridBuffer("z", np.full((8, 8), 5.0)))
+    mark = StepMark(np.array([[1, 1], [6, 6]]), lines=np.array([[[3.0, 3.0], [4.0, 4.0]]]))
+    assert mark.reach(widget.placement()).contains(widget.placement().cells_rect(1, 1, 6, 6))
 
 
 def test_names_of_edges_stand_beside_numbers_and_the_pin_beside_names(qtbot) -> None:

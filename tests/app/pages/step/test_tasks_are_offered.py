@@ -1,0 +1,28 @@
+"""What a task of a lesson asks for is offered where the learner looks for it."""
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from app.pages.step.setting_records import settings_records
+from app.session.document import Document, TeachingRaster
+from lessons.course.catalogue import shipped
+from lessons.course.state import States
+from widgets.basics.settings_panel import MORE, SettingsPanel
+
+
+@pytest.mark.parametrize("name", list(shipped().lessons))
+def test_the_methods_of_a_task_are_listed_or_the_text_names_the_button(qtbot: QtBot, name: str) -> None:
+    lesson = shipped().named(name)
+    for number, part in enumerate(lesson.steps):
+        chosen = {} if part.solution is None else part.solution.settings
+        if not chosen or MORE in part.text + part.task:
+            continue
+        state = States(lesson).of_step(number)
+        panel = SettingsPanel()
+        qtbot.addWidget(panel)
+        document = Document(state.scene, TeachingRaster(64, 48), state.settings)
+        panel.show_settings(settings_records(document))
+        for family, value in chosen.items():
+            combo = panel.combo(family)
+            assert combo.isVisibleTo(panel), (number + 1, family)
+            assert combo.findData(str(value)) >= 0, (number + 1, family, value)
