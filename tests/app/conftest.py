@@ -5,7 +5,9 @@ from contextlib import contextmanager
 from dataclasses import fields
 from pathlib import Path
 
+import numpy as np
 import pytest
+from numpy.typing import NDArray
 from PySide6.QtCore import QEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
@@ -13,13 +15,31 @@ from pytestqt.qtbot import QtBot
 
 from app.files.open_any import Opened
 from app.files.state_files import State
+from app.pages import start_page
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import Trace
-from lessons.scenes import built_in_scene
+from core.scene import AnyScene
+from lessons.scenes import BuiltInScene, built_in_scene
 from tests.patience import PATIENCE
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import LIGHT, current_theme
+
+
+@pytest.fixture(scope="session", autouse=True)
+def cards_drawn_once() -> Iterator[None]:
+    """Let all Start pages have the pictures that the first one draws: they take longer than most tests of a page."""
+    drawn: dict[str, NDArray[np.uint8]] = {}
+    draw = start_page.picture_of
+
+    def picture_of(built_in: BuiltInScene, scene: AnyScene) -> NDArray[np.uint8]:
+        if built_in.name not in drawn:
+            drawn[built_in.name] = draw(built_in, scene)
+        return drawn[built_in.name]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(start_page, "picture_of", picture_of)
+        yield
 
 
 @contextmanager

@@ -10,10 +10,10 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 import app.session.session
-from app.session.document import TEACHING_LIMIT, Document, open_document
+from app.session.document import Document, open_document
 from app.session.session import Session
-from app.session.tracing import QUICK_SECONDS, RESTING_SECONDS
-from core import ClipScene, Settings
+from app.session.tracing import RESTING_SECONDS
+from core import ClipScene
 from core.trace import Trace, source
 from core.trace.incremental.draft import Draft
 from lessons.scene_edits import move_corner
@@ -23,13 +23,11 @@ pytestmark = pytest.mark.shared_window
 SIZE = (48, 36)
 
 
-def many_triangles(count: int = 9, size: tuple[int, int] = SIZE) -> ClipScene:
+def several_triangles() -> ClipScene:
     generator = np.random.default_rng(2)
-    corners = np.ones((count, 3, 4))
-    corners[..., :3] = generator.uniform(-0.5, 0.5, (count, 1, 3)) + generator.uniform(
-        -0.4, 0.4, (count, 3, 3)
-    )
-    return ClipScene(corners, generator.random((count, 3, 4)), size)
+    corners = np.ones((9, 3, 4))
+    corners[..., :3] = generator.uniform(-0.5, 0.5, (9, 1, 3)) + generator.uniform(-0.4, 0.4, (9, 3, 3))
+    return ClipScene(corners, generator.random((9, 3, 4)), SIZE)
 
 
 def dragged(document: Document, triangle: int, x: float) -> Document:
@@ -39,7 +37,7 @@ def dragged(document: Document, triangle: int, x: float) -> Document:
 
 @pytest.fixture
 def session(qapp: object) -> Iterator[Session]:
-    found = Session(open_document(many_triangles(), "Triangles"))
+    found = Session(open_document(several_triangles(), "Triangles"))
     yield found
     found.tracing.shut_down()
 
@@ -93,20 +91,18 @@ def test_no_trace_of_before_stays_in_memory(session: Session, uncollected: None)
         earlier = references(session.trace, "raster")
 
 
-def test_nor_does_it_after_tracing_in_the_background(qtbot: QtBot, uncollected: None) -> None:
-    document = open_document(
-        many_triangles(100, TEACHING_LIMIT), "Many", settings=Settings(fill="brute-force")
-    )
-    assert document.estimated_seconds > QUICK_SECONDS
-    session = Session(document)
+def test_nor_does_it_after_tracing_in_the_background(
+    qtbot: QtBot, session: Session, uncollected: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(app.session.session, "QUICK_SECONDS", 0.0)
     earlier = references(session.trace, "raster")
     for x in (10.0, 10.5):
         wanted = dragged(session.document, 4, x)
         session.edit(wanted, "drag")
+        assert session.tracing.is_busy
         qtbot.waitUntil(lambda wanted=wanted: session.document is wanted and not session.tracing.is_busy)
         qtbot.waitUntil(lambda earlier=earlier: not any_is_left(earlier))
         earlier = references(session.trace, "raster")
-    session.tracing.shut_down()
 
 
 @pytest.mark.parametrize("stage", ["raster", "depth", "resolve"])
@@ -155,11 +151,11 @@ def test_a_scene_that_cannot_be_drawn_whole_goes_back_to_that_before_the_drag(
     assert_traced_as_from_nothing(session)
 
 
-def test_what_a_drag_left_out_of_a_large_scene_is_traced_in_the_background(qtbot: QtBot) -> None:
-    scene = many_triangles(100, TEACHING_LIMIT)
-    session = Session(open_document(scene, "Many", settings=Settings(fill="brute-force")))
+def test_what_a_drag_left_out_of_a_large_scene_is_traced_in_the_background(
+    qtbot: QtBot, session: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(app.session.session, "RESTING_SECONDS", 0.0)
     session.open(replace(session.document, triangle=4))
-    assert session.document.estimated_seconds > RESTING_SECONDS
     wanted = dragged(session.document, 4, 10.0)
     session.drag(wanted, "drag")
     session.come_to_rest()
@@ -169,7 +165,7 @@ def test_what_a_drag_left_out_of_a_large_scene_is_traced_in_the_background(qtbot
     assert session.document is wanted
     assert_traced_as_from_nothing(session)
     session.undo()
-    session.tracing.shut_down()
+    assert session.tracing.is_busy, "so is what is undone"
 
 
 def refuse_once() -> Callable[[Document], None]:

@@ -1,11 +1,13 @@
 """Pictures of plain rasterizers with one planted mistake each: named where it is on the shelf, unknown where not."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
 
+import lessons.diagnosis
 from core import Settings, render
 from core.framebuffer.display import to_display
 from core.scene import ClipScene
@@ -50,7 +52,27 @@ LINES = [(1, 1, 9, 4), (2, 11, 4, 2), (15, 9, 6, 5), (0, 6, 7, 10)]
 LECTURE = Settings(line="bresenham-lecture")
 
 
+@pytest.fixture(autouse=True, scope="module")
+def drawn_once() -> Iterator[None]:
+    """Draw the candidates of a scene for the first picture of it only."""
+
+    made = lessons.diagnosis.candidates
+
+    @cache
+    def candidates(scene, settings):
+        return [replace(each, draw=cache(each.draw)) for each in made(scene, settings)]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(lessons.diagnosis, "candidates", candidates)
+        yield
+
+
 def scene_of(triangles) -> ClipScene:
+    return _scene_of(tuple(triangles))
+
+
+@cache
+def _scene_of(triangles) -> ClipScene:
     places = [[corner[:2] for corner in triangle] for triangle in triangles]
     depth, w, colors = ([[corner[k] for corner in triangle] for triangle in triangles] for k in (2, 3, 4))
     scene = triangle_scene(places, SIZE, depth, w, colors)

@@ -16,6 +16,7 @@ from core.study.frame_task import check_pixel_tests
 from core.study.record import Point, Study, StudyCancelledError, pareto_front
 from core.study.speed_accuracy import measure, opening, pictures
 from core.study.whole_picture import SAMPLED_COLOR, PictureTask, same_look, scaled, standard_scene
+from core.study.workloads import sphere_scene
 from lessons.scenes import make_scene
 
 SMALL = {"size": 8, "cells": 4, "length": 16, "count": 6, "side": 32, "rings": 6, "scale": 0.125}
@@ -32,7 +33,8 @@ CASES = [
 
 def small_dials(family: str, work: str) -> dict[str, float]:
     kind = study_family(family).work(work)
-    return {dial.name: SMALL[dial.name] for dial in kind.dials if dial.name in SMALL}
+    small = SMALL if family != "dicing" else {"side": 128}  # the longer a side, the fewer there are
+    return {dial.name: small[dial.name] for dial in kind.dials if dial.name in small}
 
 
 def measured(family: str, work: str | None = None, **options) -> Study:
@@ -49,9 +51,12 @@ def by_method(study: Study) -> dict[str, Point]:
 
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let one run be a block, and fill small pictures."""
+    """Let one run be a block, and draw and fill small pictures."""
     monkeypatch.setattr("core.study.family.BLOCK", 0.0)
     monkeypatch.setattr("core.coverage.measured.SIZE", (64, 64))
+    monkeypatch.setattr(
+        "core.trees.measured.sphere_scene", lambda *parts: scaled(sphere_scene(*parts), 0.125)
+    )
 
 
 @pytest.mark.usefixtures("quick")
