@@ -202,7 +202,6 @@ def draw_near(draws: Draws) -> Draft:
     inside, outside = draws.whole(1, 8), -draws.whole(1, 8)
     u = [Fraction(draws.whole(10, 99)) for _ in range(2)]
     t = Fraction(inside, inside - outside)
-    reject(u[0] == u[1])
     given = (
         f"End A inside: w + z = {inside}, u = {u[0]}\nEnd B outside: w + z = {outside}, u = {u[1]}\n"
         "t runs from 0 at A to 1 at B."

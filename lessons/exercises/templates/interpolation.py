@@ -119,7 +119,6 @@ def draw_reciprocal(draws: Draws) -> Draft:
     """1/w between two ends."""
     w = [Fraction(draws.item((1, 2, 4, 5, 8, 10))) for _ in range(2)]
     t = Fraction(draws.whole(1, 7), 8)
-    reject(w[0] == w[1])
     given = f"w = {w[0]} at t = 0, w = {w[1]} at t = 1.\nThe point: t = {number_text(t)}"
     asked = f"""What is 1/w at this point of an edge? t is its share of the way in the window.
         Hint: Which of w and 1/w is linear in the window?

@@ -250,7 +250,6 @@ def draw_nearer(draws: Draws) -> Draft:
     names = ("farther-wins", "no-depth-test", "corner-for-center")
     wrong = {name: seen_pixels(SHELF[name].draw(scene, Settings()), 1) for name in names}
     right = seen_pixels(render(scene), 1)
-    reject(any(not pixels or pixels == right for pixels in wrong.values()))
     given = [
         f"Triangle 0: {corner_text(triangles[0])}, depth 1/2",
         f"Triangle 1: {corner_text(triangles[1])}, depth 1/2 + (x - {border}) / 40 at (x, y)",

@@ -3,7 +3,7 @@
 from lessons.exercises.drafting import by_rule
 from lessons.exercises.numbers import Draws, reject
 from lessons.exercises.question import Draft, template
-from lessons.mistakes.presenting import shown_with_two, swap_without_waiting, torn_row
+from lessons.mistakes.presenting import torn_row
 
 
 @template("swap-times", 1, "When a picture is shown", "resolve", 3)
@@ -12,8 +12,6 @@ def draw_swaps(draws: Draws) -> Draft:
     refresh, drawing = draws.item((8, 10, 12, 16, 20)), draws.whole(9, 50)
     times = drawing, refresh
     reject(drawing < refresh or drawing % refresh == 0)
-    reject(shown_with_two(*times) == swap_without_waiting(*times))
-    reject(drawing // refresh * refresh == drawing or 2 * drawing == shown_with_two(*times)[1])
     asked = f"""A renderer has two buffers, which are swapped only between two refreshes. It begins picture 1 at 0 ms,
         and each next picture when it has a buffer for it. When are pictures 1 and 2 first shown, in ms?
         Hint: The ends of refreshes are multiples of {refresh} ms.
