@@ -52,9 +52,8 @@ class OccludersBeside(OpensPass):
         side = 2**level
         what = "depth of the occluders" if level == 0 else f"{side} × {side} pixels a texel"
         self._title.setText(f"Level {level}: {what}")
-        buffer = GridBuffer(
-            "pyramid", pyramid[level], range=(float(bottom.min()), float(bottom.max())), title="depth"
-        )
+        ends = float(bottom.min()), float(bottom.max())
+        buffer = GridBuffer("pyramid", pyramid[level], range=ends, title="depth", has_centres=level == 0)
         self.grid.show_buffer(buffer)
         mark, said = StepMark(), "No texel is compared."
         if "box_rectangle" in known:

@@ -312,8 +312,8 @@ class GridCanvas:
         paint_nan(painter, placement, buffer, theme)
         paint_below(painter, placement, self._overlays, theme)
         if not self._is_compact or placement.cell >= COMPACT_LINE_CELL:
-            is_free = self._samples is None and not self._is_compact and centres_are_free(writing)
-            paint_lines(painter, placement, theme, is_free)
+            has_centres = buffer.has_centres and self._samples is None and not self._is_compact
+            paint_lines(painter, placement, theme, has_centres and centres_are_free(writing))
             if self._samples is not None:
                 paint_samples(painter, placement, self._samples, cells)
         paint_pale_edges(painter, placement, buffer, image, theme, cells)

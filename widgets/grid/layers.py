@@ -52,6 +52,8 @@ class GridBuffer:
     """Column and row in the picture of the lower left pixel: the rulers count from there."""
     known: NDArray[np.bool_] | None = field(default=None, repr=False)
     """(H, W) bool, where there is a value yet; other cells are empty. None: everywhere."""
+    has_centres: bool = True
+    """Whether the values belong to the centres of the cells, which are marked; not where a cell stands for several."""
     is_weight: bool = False
     """Whether it adds up to 1 with others: in its cells, what only rounding keeps from 0 is said to be about 0."""
 

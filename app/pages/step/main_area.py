@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 # The middle of the Step page: the row of views and buffers, the view that is shown, and the thumbnails.
 
 
-LEAST_ROOM_OF_BOTH = 34
+LEAST_ROOM_OF_BOTH = 31
 """Heights of the text below which the area shows one side of a stage only."""
 STACKED_GAIN = 1.05
 """How much larger two pictures alike, or a picture with a table, must be one above the other to lie so."""

@@ -133,6 +133,7 @@ def test_the_pyramid_stands_beside_cull_and_its_bottom_opens(qtbot):
         beside.refresh(session.moment)
         said.append((beside.grid.buffer().values.shape, beside.grid.accessibleDescription()))
         labels.append(step_marks(session.moment, space)[-1].label)
+    assert not beside.grid.buffer().has_centres, "a texel of a level stands for several pixels"
     nothing = "No texel is compared."
     assert said[:3] == [((48, 64), nothing), ((48, 64), nothing), ((6, 8), nothing)]
     assert said[3:] == [((6, 8), "Compared with: (3, 2), (4, 2), (3, 3) and (4, 3).")] * 2
