@@ -118,7 +118,9 @@ def _process(
             with counts["cull"]:
                 before, order = chosen, drawing_order(scene, vertices, settings).order
             drawn = order[: before.place]
-            chosen = np.unique(drawn if before.then < 0 else np.append(drawn, before.then))
+            drawn = drawn if before.then < 0 else np.append(drawn, before.then)
+            # As np.unique, which imports all of numpy.ma when it is first called: a window opens with this.
+            chosen = np.flatnonzero(np.bincount(drawn))
         assembled = assemble(scene, vertices, settings, counts["transform"], chosen)
         triangle_count = len(assembled)
         counts["transform"].incoming = counts["transform"].outgoing = triangle_count
