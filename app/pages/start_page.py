@@ -327,11 +327,13 @@ class StartPage(Page):
     def leave(self) -> None:
         """Draw no further: what is missing is drawn when the page is shown again."""
         self._painted.stop()
+        self.lessons.rest.stop()
         self._job.cancel()
 
     def stop(self) -> None:
         """End drawing and reading."""
         self._painted.stop()
+        self.lessons.rest.stop()
         super().stop()
 
 

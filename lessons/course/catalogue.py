@@ -138,7 +138,7 @@ _STEP = re.compile(r"^\[\[step\]\]$", re.MULTILINE)
 def _listed(path: Path) -> Lesson:
     """Return a lesson that ships with the program, read to its first step."""
     head, *steps = _STEP.split(path.read_text(encoding="utf-8"))
-    return Lesson(path.stem, path, tomllib.loads(head), len(steps))
+    return Lesson(path.stem, path, tomllib.loads(head, parse_float=str), len(steps))
 
 
 # How long a lesson takes: a plain sum over its steps, so that the minutes of all lessons mean the same.
@@ -245,8 +245,8 @@ class Course:
 
     def after(self, lesson: Lesson) -> Lesson | None:
         """Return the lesson that follows: the one that it names, or the next of the list; ``None``: there is none."""
-        if lesson.part.next is not None:
-            return self.lessons.get(lesson.part.next.lesson)
+        if "next" in lesson.head:
+            return self.lessons.get(lesson.head["next"]["lesson"])
         names = list(self.lessons)
         place = names.index(lesson.name) + 1 if lesson.name in self.lessons else len(names)
         return self.lessons[names[place]] if place < len(names) else None

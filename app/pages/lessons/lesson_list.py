@@ -2,11 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
 from app.background import Job
+from app.pages.lessons.presenter import found_lesson
 from widgets.lessons.lesson_list import LessonEntry, LessonList, LessonPart
 
 if TYPE_CHECKING:
@@ -18,6 +20,8 @@ OTHERS = "Other lessons"
 """Title of those that are not in the order of learning: a lecturer's own."""
 EXPLORATIONS = "With two minutes to spend"
 """Title of single steps."""
+REST_MS = 1000
+"""Time after the list is there, in milliseconds, from which the user is taken to read it."""
 
 
 @dataclass(frozen=True)
@@ -78,6 +82,10 @@ class LessonsPresenter(QObject):
         self._shown: LessonsShown | None = None
         self._is_by_stage = False
         self.job = Job(self, (OSError, ValueError), succeeded=self._take, failed=self._refuse)
+        self.preparing = Job(self, (OSError, ValueError))
+        """Reads the lesson in which the learner goes on, and all that shows it: then it opens at once."""
+        self.rest = QTimer(self, singleShot=True, interval=REST_MS)
+        self.rest.timeout.connect(self._prepare)
         view.lesson_chosen.connect(self._open)
         view.order_chosen.connect(self._choose_order)
 
@@ -102,9 +110,15 @@ class LessonsPresenter(QObject):
         if shown != before:
             self._show()
             self.place_changed.emit()
+            self.rest.start()
         if shown.problems:
             more = f" ({len(shown.problems) - 1} more)" if shown.problems[1:] else ""
             self.refused.emit(f"A lesson was skipped: {shown.problems[0]}{more}")
+
+    @Slot()
+    def _prepare(self) -> None:
+        if self.place is not None:
+            self.preparing.call(partial(found_lesson, self.place.name, None))
 
     @Slot(object)
     def _refuse(self, problem: Exception) -> None:

@@ -36,7 +36,7 @@ class _Desk:
 
 
 @dataclass(frozen=True, eq=False)
-class _Found:
+class Found:
     """A lesson that was read."""
 
     course: "Course"
@@ -197,7 +197,7 @@ class LessonPresenter(QObject):
         self._painted.stop()
         wanted, self._wanted = self._wanted, None
         if wanted is not None:
-            self._job.call(partial(_found, *wanted))
+            self._job.call(partial(found_lesson, *wanted))
 
     def open_path(self, path: str) -> None:
         """Open the lesson of a file, or go to one of the places that are `listed`."""
@@ -206,10 +206,10 @@ class LessonPresenter(QObject):
         elif path == BEGINNING:
             self.start_over()
         else:
-            self._job.call(lambda: _found(Path(path), None))
+            self._job.call(lambda: found_lesson(Path(path), None))
 
     @Slot(object)
-    def _begin(self, found: _Found) -> None:
+    def _begin(self, found: Found) -> None:
         page, walk = self._page, self._walk or self._make()
         if not self.is_open:
             self._desk = _Desk(state_of(page, 100), page.session.trace)
@@ -222,7 +222,7 @@ class LessonPresenter(QObject):
         recall = found.progress.recall if self._is_kept else found.lesson.part.recall or ""
         walk.begin(found.course, found.lesson, found.step, self._standings(found), recall)
 
-    def _standings(self, found: _Found) -> "Sequence[Standing]":
+    def _standings(self, found: Found) -> "Sequence[Standing]":
         """Return how far one is with a lesson: in front of a class nothing is kept but what was shown since."""
         key = found.lesson.name, found.progress.user
         if self._page.is_presenting and key in self._shown_before:
@@ -391,8 +391,11 @@ def _whole_course() -> "Course":
     return course
 
 
-def _found(wanted: "Lesson | str | Path", step: int | None) -> _Found:
-    """Read the lessons, and import all that shows them: off the GUI thread."""
+def found_lesson(wanted: "Lesson | str | Path", step: int | None) -> Found:
+    """Read the lessons, and import all that shows them: off the GUI thread.
+
+    Raises ValueError for no lesson, or a broken one, and OSError for a file or folder that cannot be read.
+    """
     import app.pages.lessons.walk  # noqa: F401
     from app.files.user_folders import whole_course
     from app.pages.lessons.question import progress_in
@@ -409,4 +412,4 @@ def _found(wanted: "Lesson | str | Path", step: int | None) -> _Found:
         lesson = wanted
     if lesson.path.parent != FOLDER:
         validate(lesson, {*course.lessons, lesson.name})
-    return _Found(course, lesson, step, progress_in(lesson, course))
+    return Found(course, lesson, step, progress_in(lesson, course))

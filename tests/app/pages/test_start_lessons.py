@@ -85,6 +85,14 @@ def test_who_comes_back_goes_on_where_he_stopped(
     assert page.lesson_list.parts[0].button.text() == f"{OTHERS}: 2 lessons, 10 minutes, 1 done"
 
 
+def test_the_lesson_that_comes_next_is_read_while_one_looks_at_the_list(
+    page: StartPage, qtbot: QtBot
+) -> None:
+    with qtbot.waitSignal(page.lessons.preparing.succeeded) as read:
+        page.lessons.rest.start(0)
+    assert read.args[0].lesson.name == "one"
+
+
 def test_the_lessons_are_listed_by_stage_too_and_fold_away(page: StartPage) -> None:
     page.lesson_list.order_button.click()
     parts = page.lesson_list.parts

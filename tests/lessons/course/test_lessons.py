@@ -30,8 +30,8 @@ def test_a_lesson_says_what_is_so(path: Path) -> None:
     lesson = catalogue.read_lesson(path)
     validate(lesson, catalogue.shipped().lessons)
     listed, part = catalogue.shipped().named(lesson.name), lesson.part
-    assert (listed.title, listed.question, listed.minutes) == (part.title, part.question, part.minutes)
-    assert (listed.stage, listed.step_count) == (part.state.stage, len(part.step))
+    assert (listed.question, listed.stage, listed.step_count) == (part.question, lesson.stage, len(part.step))
+    assert {**listed.head, "step": lesson.written_steps()} == lesson.head, "all else stands before the steps"
 
 
 @pytest.mark.parametrize("matrices", ["modelViewMatrix * projectionMatrix", "projectionMatrix"])
