@@ -94,11 +94,15 @@ INSPECTOR_AT_MOST, SIDES_AT_MOST = 0.5, 0.6
 class StepColumns(PaneSplitter):
     """Columns whose sides keep their widths in heights of the text: larger type makes them wider."""
 
-    def __init__(self, side: QWidget, main: QWidget, inspector: QWidget, parent: QWidget) -> None:
+    def __init__(self, parent: QWidget) -> None:
         super().__init__(Qt.Orientation.Horizontal, parent)
-        self._sides = (side, inspector)
+        self._sides: tuple[QWidget, QWidget]
         self._widths = list(WIDTHS)
         self._is_presenting = False
+
+    def show_columns(self, side: QWidget, main: QWidget, inspector: QWidget) -> None:
+        """Show these, which are its children already: to give them another parent would take 20 ms."""
+        self._sides = (side, inspector)
         for widget in (side, main, inspector):
             self.addWidget(widget)
         self.setStretchFactor(1, 1)

@@ -118,7 +118,12 @@ class StartPage(Page):
         self._recent = QWidget(self)
         self._recent_rows = column_layout(self._recent, 4)
         row = row_layout(self, 16, margins=(16, 8, 8, 8))
-        self._panes = _scrolled(self._side(), "Begin"), _scrolled(self._scenes(), "Lessons and scenes")
+        self._panes = _scrolled("Begin", self), _scrolled("Lessons and scenes", self)
+        self._side_pane, scenes = (QWidget(pane.viewport()) for pane in self._panes)
+        for pane, content in zip(self._panes, (self._side_pane, scenes), strict=True):
+            pane.setWidget(content)
+        self._fill_side(self._side_pane)
+        self._fill_scenes(scenes)
         row.addWidget(self._panes[0])
         row.addWidget(self._panes[1], 1)
         theme_notifier().theme_changed.connect(self._set_widths)
@@ -134,8 +139,7 @@ class StartPage(Page):
         button.clicked.connect(self._act)
         return button
 
-    def _side(self) -> QWidget:
-        side = self._side_pane = QWidget(self)
+    def _fill_side(self, side: QWidget) -> None:
         layout = column_layout(side, 8, margins=(0, 8, 12, 8))
         layout.addWidget(text_label("Rasterscope", side, role="title"))
         layout.addWidget(text_label(WHAT, side, wraps=True))
@@ -153,10 +157,8 @@ class StartPage(Page):
         layout.addWidget(self._recent)
         layout.addStretch(1)
         layout.addWidget(self.always_box)
-        return side
 
-    def _scenes(self) -> QWidget:
-        pane = QWidget(self)
+    def _fill_scenes(self, pane: QWidget) -> None:
         layout = column_layout(pane, 8, margins=(0, 8, 8, 8))
         layout.addWidget(self.search)
         layout.addWidget(self.none_found)
@@ -164,7 +166,6 @@ class StartPage(Page):
         layout.addSpacing(8)
         layout.addWidget(self.cards)
         layout.addStretch(1)
-        return pane
 
     # What is shown.
 
@@ -362,14 +363,13 @@ class _Pane(QScrollArea):
         event.ignore()
 
 
-def _scrolled(content: QWidget, name: str) -> QScrollArea:
-    """Return a part of the page."""
-    area = _Pane()
+def _scrolled(name: str, parent: QWidget) -> QScrollArea:
+    """Return a part of the page, to be filled."""
+    area = _Pane(parent)
     area.verticalScrollBar().setSingleStep(SCROLL_STEP)
     area.setWidgetResizable(True)
     area.setFrameShape(QScrollArea.Shape.NoFrame)
     area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
     area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
     area.setAccessibleName(name)
-    area.setWidget(content)
     return area

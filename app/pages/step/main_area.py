@@ -109,14 +109,14 @@ class MainArea(QWidget):
         for widget in (self.range_button, self.buffer_choice, self.thumbnails_button):
             choices.addWidget(widget)
         self._row_layout.addWidget(self._choices)
-        main_side = QWidget(self)
+        self.rows = PaneSplitter(Qt.Orientation.Vertical, self)
+        self.both_sides = QWidget(self.rows)
+        main_side = QWidget(self.both_sides)
         titled = column_layout(main_side, 4)
         self._main_title = text_label("", main_side, role="muted")
         self._main_title.hide()
         titled.addWidget(self._main_title)
         titled.addWidget(self.view_stack, 1)
-        self.rows = PaneSplitter(Qt.Orientation.Vertical, self)
-        self.both_sides = QWidget(self)
         self._sides = row_layout(self.both_sides, 4)
         for side in (main_side, self.beside):
             # Halves, whatever is written in them: a longer title must not move the pictures.

@@ -62,11 +62,12 @@ class StepPage(Page):
         self.shader_pane = make_shader_pane(self)
         self.legend = OverlayLegend(self)
         self.views = StageViews(session, self)
-        self.main_area = MainArea(session, self.views, self)
+        self.columns = StepColumns(self)
+        self.main_area = MainArea(session, self.views, self.columns)
         self.grid, self.strip = self.main_area.grid, self.main_area.strip
         self.compare_view, self.ranges = self.main_area.compare_view, self.main_area.ranges
         self.column = column = InspectorColumn(self)
-        self.side = SideColumn(column, self)
+        self.side = SideColumn(column, self.columns)
         self.card, self.sentence, self.formula = column.card, column.sentence, column.formula
         self.listing, self.variables, self.history = column.listing, column.variables, column.history
         self.prediction = column.prediction
@@ -138,12 +139,12 @@ class StepPage(Page):
 
     def _lay_out(self) -> None:
         self.side_tabs = SideTabs(self)
-        self.side_panes = QStackedWidget(self)
+        self.side_panes = QStackedWidget(self.columns)
         for pane in SIDE_PANES:
             self.side_tabs.add_tab(pane.name, pane.title, f"Show or fold away: {pane.title} ({pane.key})")
             self.side_panes.addWidget(pane.make(self))
         self.side_tabs.pane_chosen.connect(self.toggle_pane)
-        self.columns = StepColumns(self.side_panes, self.main_area, self.side, self)
+        self.columns.show_columns(self.side_panes, self.main_area, self.side)
         self._page_layout = page = column_layout(self, 4, margins=MARGINS)
         self.place = ElidedLabel(self)
         self.place.setAccessibleDescription("Stage, step and scene")

@@ -9,7 +9,8 @@ from app.pages.columns import StepColumns
 def test_dragged_widths_stay_and_presenting_leaves_them(qtbot: QtBot) -> None:
     page = QWidget()
     qtbot.addWidget(page)
-    columns = StepColumns(QWidget(), QWidget(), QWidget(), page)
+    columns = StepColumns(page)
+    columns.show_columns(QWidget(), QWidget(), QWidget())
     columns.resize(1900, 700)
     page.resize(1900, 700)
     page.show()
