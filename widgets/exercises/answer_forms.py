@@ -3,7 +3,7 @@
 from typing import Any
 
 from PySide6.QtCore import QSize, Qt, Slot
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtGui import QKeyEvent, QTextCursor
 from PySide6.QtWidgets import QPushButton, QSizePolicy, QWidget
 
 from core.records.cells import Form, StepLine
@@ -274,6 +274,12 @@ class CodeAnswerView(AnswerView):
         if given is not None and not isinstance(given, str):
             raise TypeError(f"expected a listing as text, got {type(given).__name__}")
         self.editor.show_text(self._form.start[0] if given is None else given)
+        if given is None and (place := self.editor.text.find("#")) >= 0:
+            # What says that something is missing is typed over.
+            cursor = self.editor.textCursor()
+            cursor.setPosition(place)
+            cursor.movePosition(QTextCursor.MoveOperation.EndOfLine, QTextCursor.MoveMode.KeepAnchor)
+            self.editor.setTextCursor(cursor)
         self._mark_changes()
         self.show_problem(None)
 

@@ -241,6 +241,9 @@ class LessonView(QWidget):
             label.setVisible(bool(text))
         self._show_links(record.links)
         self._show_form(form)
+        # Where a listing cannot run is said while it is typed: the buttons below keep their place.
+        lines = 3 if form is not None and form.kind == "code" else 0
+        self.note.setMinimumHeight(lines * (self.note.fontMetrics().lineSpacing() + 1))
         self.show_note("")
         self.show_feedback(None)
         self.show_standings(record)

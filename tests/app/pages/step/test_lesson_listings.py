@@ -48,6 +48,20 @@ def test_a_listing_that_is_edited_is_a_task(window: MainWindow, qtbot: QtBot, tm
     assert (window.page.current_view(), box.currentData()) == ("compare", "overdraw")
 
 
+def test_what_is_typed_takes_the_place_of_the_gap_and_next_keeps_its_own(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    walk = opened(window, qtbot, tmp_path, 5, lesson_text("repair-a-listing"))
+    answer, view = walk.view.answer, walk.view
+    assert isinstance(answer, CodeAnswerView)
+    assert answer.editor.textCursor().selectedText() == "# write the rest"
+    window.page.settle()
+    place = view.next_button.mapTo(window, QPoint())
+    view.show_note("Line 2, column 3: the lines that belong to the line above must stand further right.")
+    window.page.settle()
+    assert view.next_button.mapTo(window, QPoint()) == place, "moved under who types"
+
+
 def test_a_shader_that_is_typed_is_a_task(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
     walk = opened(window, qtbot, tmp_path, 2, lesson_text("write-a-shader"))
     pane = window.page.shader_pane
