@@ -128,6 +128,10 @@ def to_the_desk(window: MainWindow) -> None:
     if current_theme() != LIGHT:
         window.appearance.set_text_size(100)
         window.appearance.set_theme("light")
+    application = QApplication.instance()
+    assert isinstance(application, QApplication)
+    if application.styleSheet():
+        application.setStyleSheet("")  # as at first: with it everything that a later test shows takes longer
     window.resize(1280, 800)
 
 
