@@ -1,8 +1,6 @@
 """The shelf of shader mistakes: what students type wrong, each as one edit of a preset, and how it is recognised.
 
 A mistake is recognised by its picture: shaders written in another way that go wrong alike are named, too.
-
-A mistake is recognised by its picture: shaders written in another way that go wrong alike are named, too.
 """
 
 from dataclasses import dataclass, replace
