@@ -32,7 +32,7 @@ from lessons.lectures.scenes import ALL_SCENES, LECTURE_SCENES, LECTURES
 from lessons.scene_edits import scene_digest
 from lessons.scenes import CATALOGUE, BuiltInScene
 from lessons.world_scenes import TEACHING_SIZE
-from widgets.basics.accessibility import announce
+from widgets.basics.accessibility import announce, give_focus
 from widgets.basics.controls import button_with_tip, column_layout, row_layout, text_label
 from widgets.basics.image import display_image
 from widgets.basics.theme import current_theme, theme_notifier
@@ -274,6 +274,11 @@ class StartPage(Page):
         self.action_requested.emit("page_step")
         if not self._session.is_asked_about:
             self.action_requested.emit("step_forward")
+
+    def find(self) -> None:
+        """Take the keyboard to the field that finds."""
+        give_focus(self.search, Qt.FocusReason.ShortcutFocusReason)
+        self.search.selectAll()
 
     def dismiss(self) -> bool:
         """Go back to the Step page."""

@@ -171,6 +171,9 @@ ACTIONS: tuple[Action, ...] = (
     *rows_of("start", keys.STEPPING, "", lambda w: w.start)(
         Row("begin_stepping", "Right", "Step what is open", lambda p: p.step_on())
     ),
+    *rows_of("start", keys.PAGES, "", lambda w: w.start)(
+        Row("find", "Ctrl+F /", "Find a lesson or a scene", lambda p: p.find())
+    ),
     *rows_of("", keys.PAGES, "View/Pages", whole_window)(
         page_row("step", "Alt+1", "Step page"),
         page_row("compare", "Alt+2", "Compare page"),

@@ -44,7 +44,8 @@ def test_typed_words_leave_the_lessons_and_scenes_that_have_them(
         return lessons, [card.entry.name for card in page.cards.cards if card.isVisible()]
 
     before = found()
-    page.search.setFocus(Qt.FocusReason.TabFocusReason)
+    QTest.keyClick(window, Qt.Key.Key_F, Qt.KeyboardModifier.ControlModifier)
+    assert window.focusWidget() is page.search
     QTest.keyClicks(page.search, "Shared EDGE")
     lessons, scenes = found()
     assert lessons[0] == "shared-edges", "also of a part that was folded away"
