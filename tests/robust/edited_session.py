@@ -65,8 +65,9 @@ class Editor:
 
 
 faulthandler.enable()
-# A shell starts what runs in the background with Ctrl+C ignored, and with it its children.
+# A shell starts what runs in the background with Ctrl+C ignored, nohup with SIGHUP, and with it its children.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
 the_application()
 editor = Editor(int(sys.argv[1]), sys.argv[2])
 sys.exit(start.run_window())

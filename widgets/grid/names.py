@@ -58,11 +58,15 @@ def _best(boxes: Iterable[QRectF], names: Sequence[NameBox], is_free: Callable[[
     seen, apart = [], []
     for box in boxes:
         seen.append(box)
-        if not any(box.intersects(other) for other, _, _ in names):
+        if not _crosses(box, names):
             apart.append(box)
             if is_free(box):
                 return box
     return [*apart, *seen][0]
+
+
+def _crosses(box: QRectF, names: Sequence[NameBox]) -> bool:
+    return any(box.intersects(other) for other, _, _ in names)
 
 
 def _vertex_names(
@@ -88,8 +92,12 @@ def _vertex_names(
         angle = np.arctan2(away[1], away[0]) if np.isfinite(length) and length > 0.0 else np.pi / 2
         box = QRectF(0, 0, metrics.horizontalAdvance(text) + 8, metrics.height())
         reach = HANDLE_RADIUS * theme.text_px / 13 + 8 + box.width() / 2
-        boxes = _around(position, box, float(angle), reach, QRectF(placement.viewport))
-        names.append((_best(boxes, names, is_free), text, theme.vertex_text[geometry.color(place)]))
+        viewport = QRectF(placement.viewport)
+        near, far = (_around(position, box, float(angle), part * reach, viewport) for part in (1, 2.5))
+        chosen = _best(near, names, is_free)
+        if _crosses(chosen, names):
+            chosen = _best(far, names, is_free)
+        names.append((chosen, text, theme.vertex_text[geometry.color(place)]))
     return names
 
 
@@ -135,7 +143,7 @@ def _edge_names(
         box = QRectF(0, 0, width, height)
         boxes = (moved_inside(box.translated(place - box.center()), viewport) for place in places)
         chosen = _best(boxes, [*vertices, *names], is_free)
-        if any(chosen.intersects(other) for other, _, _ in (*vertices, *names)):
+        if _crosses(chosen, [*vertices, *names]):
             continue  # Two texts on each other say nothing.
         names.append((chosen, f"E{edge}{owner}", theme.vertex_text[edge]))
     return names

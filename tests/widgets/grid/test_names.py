@@ -16,6 +16,7 @@ from widgets.grid.view import GridView, place
 pytestmark = pytest.mark.usefixtures("qapp")
 
 
+@example([(24, 24), (24, 24), (24, 24)])
 @example([(0, 0), (0, 0), (4, 0)])
 @given(st.lists(st.tuples(st.integers(0, 24), st.integers(0, 24)), min_size=3, max_size=3))
 def test_names_of_vertices_and_edges_never_lie_on_each_other(corners: list[tuple[int, int]]) -> None:
