@@ -275,7 +275,7 @@ class StartPage(Page):
         if not self._session.is_asked_about:
             self.action_requested.emit("step_forward")
 
-    def find(self) -> None:
+    def begin_search(self) -> None:
         """Take the keyboard to the field that finds."""
         give_focus(self.search, Qt.FocusReason.ShortcutFocusReason)
         self.search.selectAll()

@@ -172,7 +172,7 @@ ACTIONS: tuple[Action, ...] = (
         Row("begin_stepping", "Right", "Step what is open", lambda p: p.step_on())
     ),
     *rows_of("start", keys.PAGES, "", lambda w: w.start)(
-        Row("find", "Ctrl+F /", "Find a lesson or a scene", lambda p: p.find())
+        Row("find", "Ctrl+F /", "Find a lesson or a scene", lambda p: p.begin_search())
     ),
     *rows_of("", keys.PAGES, "View/Pages", whole_window)(
         page_row("step", "Alt+1", "Step page"),
