@@ -311,27 +311,15 @@ class Operation:
 
 @dataclass(frozen=True)
 class Either:
-    """`Labels` of an operation that does one thing or another."""
+    """`Labels` of an operation that does one thing or another, or of a search that finds something or nothing."""
 
     flag: str
-    """The column (R,) bool that decides."""
+    """The column (R,) that decides: bool, or int64 of what was found, -1 where nothing was."""
     when_set: str
     otherwise: str
 
     def __call__(self, columns: Columns, rows: Any) -> NDArray[np.str_]:
         """Return the labels (C,) of rows."""
-        return np.where(columns[self.flag][rows], self.when_set, self.otherwise)
-
-
-@dataclass(frozen=True)
-class Found:
-    """`Labels` of a search: the line before its loop has given the result where nothing was found."""
-
-    number: str
-    """The column (R,) int64 of what was found; -1: nothing."""
-    before: str
-    within: str
-
-    def __call__(self, columns: Columns, rows: Any) -> NDArray[np.str_]:
-        """Return the labels (C,) of rows."""
-        return np.where(columns[self.number][rows] < 0, self.before, self.within)
+        flag = columns[self.flag][rows]
+        is_set = flag if flag.dtype == bool else flag >= 0
+        return np.where(is_set, self.when_set, self.otherwise)

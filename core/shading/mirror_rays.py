@@ -13,7 +13,7 @@ import numpy as np
 
 from core.methods import method
 from core.records.arrays import Flags, Floats, Integers
-from core.records.listing import Found, Operation
+from core.records.listing import Either, Operation
 from core.shading.environment import AFTER, BEFORE, Mirrored, Surroundings, reflect
 from core.shading.lighting import Planes, Vector, dot, inner, planes
 
@@ -89,7 +89,7 @@ def ray_color(
     operations={
         "mirror": (
             *BEFORE,
-            Operation("ray", Found("met", "free", "ray"), {"met": "met", "met_distance": "nearest"}),
+            Operation("ray", Either("met", "ray", "free"), {"met": "met", "met_distance": "nearest"}),
             Operation("look-up", "look-up", {"seen": "seen"}),
             *AFTER,
         )

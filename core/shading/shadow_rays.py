@@ -11,12 +11,11 @@ import numpy as np
 
 from core.methods import method
 from core.records.arrays import Flags, Floats, Integers
-from core.records.listing import RETURN, Found, Operation
+from core.records.listing import RETURN, Either, Operation
 from core.shading.shadows import Lamp, in_light_space
 
 OWN_SURFACE = 1e-9
 """Nearer than this, in depth, a triangle is the surface that the point lies on."""
-FREE_OR_MET = Found("blocker", "free", "ray")
 PAIRS = 1 << 20
 """Points times triangles that are looked at together."""
 
@@ -70,7 +69,7 @@ def ray_share(
             Operation("light-space", "light-space", {"lamp_u": "u", "lamp_v": "v", "lamp_depth": "depth"}),
             Operation(
                 "shadow-ray",
-                Found("blocker", "free", "ray"),
+                Either("blocker", "ray", "free"),
                 {"blocker": "blocker", "blocker_depth": "nearest"},
             ),
             Operation("share", "share", {"light_share": RETURN}),

@@ -255,10 +255,8 @@ class Course:
         """Return the lesson that the exercise before a lesson is about; ``None``: none is known."""
         if "recall_of" in lesson.head:
             return self.lessons.get(lesson.head["recall_of"])
-        others, asked = (
-            (each for each in self.lessons.values() if each is not lesson),
-            lesson.head.get("recall"),
-        )
+        asked = lesson.head.get("recall")
+        others = (each for each in self.lessons.values() if each is not lesson)
         return next((each for each in others if asked in each.head.get("exercises", ())), None)
 
     @property

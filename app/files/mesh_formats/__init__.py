@@ -70,9 +70,11 @@ def read_file(path: Path, report: reading.Report, allows_outside: bool = False) 
             raise reading.MeshFileError(f"{path.name} is not a file")
         if path.stat().st_size == 0:
             raise reading.MeshFileError(f"{path.name} is empty")
-        loaded = reader(path, report, NamedFiles(path, allows_outside))
-        if loaded.wires is None:
-            check_meshes(path, loaded.meshes)
+        # A signalling NaN, or a number that becomes infinite, would warn; it is refused like any other.
+        with np.errstate(all="ignore"):
+            loaded = reader(path, report, NamedFiles(path, allows_outside))
+            if loaded.wires is None:
+                check_meshes(path, loaded.meshes)
         loaded = replace(loaded, warnings=first_warnings(loaded.warnings))
     except reading.MeshFileError:
         raise

@@ -47,11 +47,7 @@ def read_dxf(path: Path, report: reading.Report, files: NamedFiles) -> reading.L
         path, size * (1 + values.count("INSERT")) * MEMORY_PER_BYTE if "BLOCKS" in values else 0
     )
     report(None, "reading lines, circles and arcs")
-    # An arc of numbers too large becomes NaN, which is refused below.
-    with (
-        reading.translated_errors(path, "an entity does not have the numbers that it needs"),
-        np.errstate(all="ignore"),
-    ):
+    with reading.translated_errors(path, "an entity does not have the numbers that it needs"):
         strips = [
             entity.discrete(np.asarray(drawing.vertices), scale=float(np.ptp(drawing.vertices)))
             for drawing in reading.load_with_trimesh(path).geometry.values()

@@ -48,9 +48,7 @@ def read_gltf(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
         report(len(meshes) / len(placed), "converting meshes")
         _, transform, name = nodes[node]
         title = name if len(parts_of[mesh]) == 1 else f"{name}_{place}"
-        with np.errstate(all="ignore"):  # Of a scale of 1e200 the sign is asked for.
-            is_mirrored = bool(np.linalg.det(transform[:3, :3]) < 0)
-        made = maker.made(parts_of[mesh][place], is_mirrored)
+        made = maker.made(parts_of[mesh][place], bool(np.linalg.det(transform[:3, :3]) < 0))
         meshes.append(replace(made, transform=transform, name=title))
     if not meshes:
         raise MeshFileError(f"{path.name} has no faces")

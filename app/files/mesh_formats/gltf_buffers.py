@@ -341,9 +341,7 @@ class GltfFile:
 
     def _read_floats(self, index: int) -> Floats:
         """Return the numbers of an accessor, (count, width) float64, read-only."""
-        # A signalling NaN would warn here; it is refused later like any other.
-        with np.errstate(invalid="ignore"):
-            found = self.values(index).astype(np.float64)
+        found = self.values(index).astype(np.float64)
         found.flags.writeable = False
         return found
 

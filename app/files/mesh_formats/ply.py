@@ -170,9 +170,7 @@ def whole(rows: Rows, names: tuple[str, ...], warnings: list[str]) -> Floats | N
 
 def stacked(rows: Rows, names: str | tuple[str, ...]) -> Floats:
     """Return columns side by side, (count, len(names)) float64."""
-    # A signalling NaN would warn here; it is refused later like any other.
-    with np.errstate(invalid="ignore"):
-        return np.stack([rows.columns[name].astype(np.float64) for name in names], axis=1)
+    return np.stack([rows.columns[name].astype(np.float64) for name in names], axis=1)
 
 
 def read_colors(rows: Rows) -> Floats | None:

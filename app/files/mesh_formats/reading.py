@@ -346,8 +346,7 @@ def load_with_trimesh(path: Path) -> Any:
     import trimesh
 
     logging.getLogger("trimesh").setLevel(logging.CRITICAL)
-    # Infinite numbers would warn in its products; they are refused later.
-    with open_input(path) as file, warnings.catch_warnings(), np.errstate(all="ignore"):
+    with open_input(path) as file, warnings.catch_warnings():
         # numpy.fromstring only warns where a text stops being numbers: half a mesh would pass as the whole.
         warnings.filterwarnings("error", message="string or file could not be read to its end")
         return trimesh.load_scene(file, file_type=path.suffix.lower()[1:], process=False)

@@ -60,9 +60,7 @@ def read_binary(path: Path, count: int) -> reading.LoadedMeshes:
     row = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
     with open_input(path) as file:
         found = np.fromfile(file, row, count, offset=HEADER)
-    # A signalling NaN would warn here; it is refused later like any other.
-    with np.errstate(invalid="ignore"):
-        positions = found["corners"].astype(np.float64).reshape(-1, 3)
+    positions = found["corners"].astype(np.float64).reshape(-1, 3)
     del found
     reading.check_positions(path, positions)
     positions.flags.writeable = False
