@@ -81,9 +81,14 @@ class CataloguePresenter(QObject):
         self.question_chosen.connect(self._forget_next)
 
     @property
+    def is_reading(self) -> bool:
+        """Whether the attempts of the learner are not known yet, or read again."""
+        return self._reading.is_running
+
+    @property
     def is_working(self) -> bool:
         """Whether attempts are being read, or the next question is being chosen."""
-        return self._reading.is_running or self._choosing.is_running
+        return self.is_reading or self._choosing.is_running
 
     def begin(self) -> None:
         """Read the exercises of teachers' folders, and what the learner has answered so far."""
@@ -123,7 +128,7 @@ class CataloguePresenter(QObject):
     def take_attempt(self, attempt: Attempt) -> None:
         """Take one more attempt, which is kept already."""
         self.attempts = (*self.attempts, attempt)
-        if self._reading.is_running:
+        if self.is_reading:
             self.begin()  # What is being read may lack it.
         self._choose()
 

@@ -153,7 +153,7 @@ class ExercisesPage(Page):
         self.unfinished = UnfinishedFile(self)
         self.exercises = CataloguePresenter(self.catalogue, self.unfinished, self)
         self.questions = QuestionPresenter(
-            self.question_view, self.grid, self.unfinished, lambda: self.exercises.attempts, self
+            self.question_view, self.grid, self.unfinished, self.exercises, self
         )
         self.progress_view = ProgressView(self)
         self.progress = ProgressPresenter(self.progress_view, self)

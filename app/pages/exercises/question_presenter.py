@@ -1,6 +1,6 @@
 """Asks one question: takes the answer, checks it, shows hints, marks, the mistake, and the runs behind them."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import partial
 from time import monotonic
 from typing import Any
@@ -27,12 +27,12 @@ from app.pages.exercises.answers import (
     size_of,
     trying,
 )
+from app.pages.exercises.catalogue_presenter import CataloguePresenter
 from app.pages.exercises.evidence import Evidence, wanted_picture
 from app.pages.exercises.feedback import LastCheck, not_checked_text, show_tried
 from app.pages.page_bar import Page
 from core.records.words import counted
 from lessons.attempts.practice import TRY_LIMIT
-from lessons.attempts.record import Attempt
 from lessons.exercises.answers.answer import NotCheckedError, Response
 from lessons.exercises.answers.listings import CannotRunError
 from lessons.exercises.answers.spot import SpotAnswer
@@ -61,18 +61,18 @@ class QuestionPresenter(QObject):
         view: QuestionView,
         grid: MarkGrid,
         unfinished: UnfinishedFile,
-        attempts: Callable[[], Sequence[Attempt]],
+        exercises: CataloguePresenter,
         page: Page,
     ) -> None:
-        """Begin without a question; ``attempts`` returns those of the learner so far."""
+        """Begin without a question; ``exercises`` knows the attempts of the learner so far."""
         super().__init__(page)
-        self._page = page
+        self._page, self._exercises = page, exercises
         self._view, self._grid, self._unfinished = view, grid, unfinished
         self.user = ""
         self.question: Question | None = None
         self._asked: Asked | None = None
         """The question with its outline, as it was drawn."""
-        self._last = LastCheck(attempts)
+        self._last = LastCheck(lambda: exercises.attempts)
         self._hints = 0
         self._has_answer = self._is_checked = self._is_shown = self._is_sure = False
         self._left_out: object = None
@@ -319,6 +319,9 @@ class QuestionPresenter(QObject):
             return
         if self._asking.is_running or self._waiting:
             self._page.tell("Not checked: you have chosen another question.")
+            return
+        if self._exercises.is_reading:  # Only beside those before it is it known whether an attempt counts.
+            self._page.tell("Not checked: earlier answers are still being read. Check again.")
             return
         answer, given = question.draft.answer, view.given()
         try:

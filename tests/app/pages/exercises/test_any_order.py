@@ -178,6 +178,20 @@ def test_another_question_waits_for_the_verdict_and_ends_the_one_before(page: Ex
         assert page.question is not question
 
 
+def test_no_answer_is_checked_while_those_before_it_are_read(page: ExercisesPage) -> None:
+    """Whether an attempt counts is known only beside them: here it corrects one that is read again."""
+    page.open_line(line_of("facing", 3))
+    page.settle()
+    for is_read in (True, False, True):
+        page.questions.answer(page.question.draft.answer.reference)
+        if not is_read:
+            page.exercises.set_user(page.exercises.user)
+        page.question_view.check_button.click()
+        assert page.questions.is_checking == is_read
+        page.settle()
+    assert page.question_view.verdict.text().endswith(CORRECTED)
+
+
 def test_a_verdict_is_that_of_the_answer_that_was_checked(page: ExercisesPage) -> None:
     """An answer that is changed during its check has points, but no marks until the change is taken back."""
     student = Student(page, 1)
