@@ -5,6 +5,7 @@ called, so that no command waits for what another one needs.
 """
 
 import argparse
+import gc
 import importlib
 import io
 import os
@@ -43,11 +44,16 @@ def run(target: str | None, allows_outside: bool = False) -> int:
         raise ValueError(
             "there is no display to open a window on; to render to a file: rasterscope render FILE -o out.png"
         )
-    for module in BEFORE_QT:
-        import_module(module)
-    load_qt()
-    from app.window.start import run_window
-
+    # What is imported stays, and is not garbage: looking through it again and again takes a tenth of the start.
+    gc.disable()
+    try:
+        for module in BEFORE_QT:
+            import_module(module)
+        load_qt()
+        from app.window.start import run_window
+    finally:
+        gc.freeze()  # Without it a full pass of the collector takes 45 ms in place of 8.
+        gc.enable()
     return run_window(target, allows_outside)
 
 

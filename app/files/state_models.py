@@ -291,7 +291,7 @@ class Look(Record):
     """The main view."""
     views: dict[StageName, ViewName] = {}
     """Main view by stage, where the user has chosen one."""
-    grid: GridLook = GridLook()
+    grid: GridLook = Field(default_factory=GridLook)
     orbits: dict[ViewName, OrbitRecord] = {}
     """From where views in space are seen, where the user has turned them."""
     other: dict[str, str | int] = {}
@@ -347,8 +347,8 @@ class StateRecord(Record):
     level: Annotated[int, Field(ge=0, le=4)]
     pin: tuple[Count, Count] | None
     bookmarks: list[Bookmark]
-    breakpoints: Breakpoints = Breakpoints()
-    look: Look = Look()
+    breakpoints: Breakpoints = Field(default_factory=Breakpoints)
+    look: Look = Field(default_factory=Look)
     counted_by: Literal[2, 3] = 3
     """The version by whose steps ``position`` and the bookmarks count."""
 

@@ -1,6 +1,5 @@
 """Starting the window: what it shows first, how it looks, a picture of it, and the signals that end it."""
 
-import gc
 import os
 import signal
 import socket
@@ -192,7 +191,6 @@ def run_window(target: str | None = None, allows_outside: bool = False) -> int:
     allows_outside : bool
         Whether files that it names may be read from outside its folder.
     """
-    gc.freeze()  # What is imported stays: without it a full pass of the collector takes 8 ms in place of 45.
     application = the_application()
     collecting = Collecting(application)
     application.setApplicationName("Rasterscope")

@@ -31,6 +31,17 @@ def test_what_is_imported_before_qt_needs_no_qt_and_a_scene_opens_without_pillow
     assert not {"PIL", "trimesh", "app.files.mesh_formats.gltf_buffers"} & imported
 
 
+def test_no_garbage_is_looked_for_while_the_window_is_imported() -> None:
+    said = imported_by(
+        "import gc, sys, types; from app.cli.commands import run; passes = []; "
+        "gc.callbacks.append(lambda *_: passes.append('passed')); "
+        "sys.modules['app.window.start'] = types.SimpleNamespace(run_window=lambda *_: "
+        "print(*passes, 'kept' if gc.get_freeze_count() > 50_000 else '', gc.isenabled())); run(None)"
+    )
+    assert {"kept", "True"} <= said
+    assert "passed" not in said
+
+
 def test_the_process_of_the_first_picture_imports_little() -> None:
     imported = imported_by("import app.bench.first_picture")
     assert "app.bench.records" in imported
