@@ -224,10 +224,12 @@ class StartPage(Page):
     @Slot()
     def _show_place(self) -> None:
         """Offer the lesson with which to begin, or in which to go on."""
-        place = self.lessons.place
+        place, is_new = self.lessons.place, self.lesson_button.isHidden()
         self.lesson_button.setText("" if place is None else place.button)
         self.lesson_button.setVisible(place is not None)
         self._set_widths()
+        if is_new and self.begin_button.hasFocus():
+            self.take_focus()  # Return begins with the lesson.
 
     @property
     def is_drawing(self) -> bool:

@@ -11,6 +11,7 @@ from widgets.basics.theme import Theme, text_font, theme_notifier
 _SHEET = Template("""
 QToolTip { background: $raised; color: $text; border: 1px solid $outline; padding: ${u}px; }
 
+QPushButton, QComboBox, QToolButton, QCheckBox, QRadioButton { outline: none; }
 QPushButton, QComboBox, QToolButton {
     background: $raised; color: $text; border: 1px solid $outline; border-radius: 3px;
     padding: 3px ${uu}px; min-height: ${control}px;

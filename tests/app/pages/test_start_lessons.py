@@ -58,8 +58,13 @@ def test_who_is_new_is_told_where_to_begin_above_the_scenes(page: StartPage, qtb
     )
     scene = page.cards.cards[0]
     assert card.mapTo(page, card.rect().bottomLeft()).y() < scene.mapTo(page, scene.rect().topLeft()).y()
+    for is_new in (False, True):
+        page.lesson_button.setHidden(is_new)
+        page.begin_button.setFocus()
+        page.lessons.place_changed.emit()
+        assert page.focusWidget() is (page.lesson_button if is_new else page.begin_button)
     with qtbot.waitSignal(page.lesson_requested) as asked:
-        page.lesson_button.click()
+        QTest.keyClick(page.lesson_button, Qt.Key.Key_Return)
     assert (page.lesson_button.text(), asked.args) == ("Begin: Whose pixel?", ["one", 0])
     with qtbot.waitSignal(page.lesson_requested) as asked:
         QTest.keyClick(part.cards[1], Qt.Key.Key_Return)
