@@ -3,7 +3,8 @@
 from dataclasses import replace
 from functools import partial
 
-from PySide6.QtCore import Slot
+from PySide6.QtCore import QTimer, Slot
+from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import QSplitter, QWidget
 
 from app.pages.experiment_page import ExperimentPage, OpenedPictures, WorkWords
@@ -34,6 +35,8 @@ class PlanPage(ExperimentPage):
         self.shown: PlanShown | None = None
         self._finished: PlanShown | None = None
         """What comes back if an analysis comes to nothing."""
+        self._rounds = 0
+        """Of the analysis that runs or was run last; 0: it only looks, see `planned`."""
         self._replaced: Settings | None = None
         """What the scene was drawn with before the plan that is shown was applied; ``None``: it was not."""
         self.pictures.hide()
@@ -68,17 +71,41 @@ class PlanPage(ExperimentPage):
     def _follow(self, what: Change) -> None:
         if Change.DOCUMENT in what:
             self.refresh()
+            self._look()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Look at a scene of which nothing is known yet, once the page has the keyboard."""
+        super().showEvent(event)
+        QTimer.singleShot(0, self, self._look)
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Look no longer: only an analysis that was asked for goes on."""
+        super().hideEvent(event)
+        if not self._rounds:
+            self.work.cancel()
 
     # Analysing.
 
     @Slot()
+    def _look(self) -> None:
+        """Plan without measuring, unless something was measured or runs, or the scene is asked about."""
+        is_known = self.shown is not None and (self.shown.report is not None or not self.is_stale)
+        is_free = self.isVisible() and not self.is_running and not self._session.is_asked_about
+        if is_free and not is_known and self._session.document.scene.corner_count:
+            self._begin(0)
+
+    @Slot()
     def start(self) -> None:
         """Plan for the open scene, and measure the plan."""
+        self._begin(self.controls.rounds_box.value())
+
+    def _begin(self, rounds: int) -> None:
         document, controls = self._session.document, self.controls
         color, pixels = controls.color_box.value(), controls.pixels_box.value()
         tolerance = Tolerance.exact() if controls.is_exact else Tolerance(color, pixels)
-        title, rounds = document.title or "scene", controls.rounds_box.value()
+        title = document.title or "scene"
         self.work.cancel()
+        self._rounds = rounds
         self.begin(
             partial(planned, document.scene, title, document.settings, tolerance, rounds),
             "Analysing the scene",
@@ -92,9 +119,9 @@ class PlanPage(ExperimentPage):
     def _take_result(self, result: PlanShown) -> None:
         self._finished = result
         self._show(result)
-        assert result.report is not None
-        self._session.set_plan(result.report)
-        self.tell(f"Analysed {result.title}.")
+        if result.report is not None:
+            self._session.set_plan(result.report)
+            self.tell(f"Analysed {result.title}.")
 
     def _put_back(self) -> None:
         """Show what was found before."""

@@ -48,6 +48,8 @@ class PlanShown:
     """What the scene is called."""
     plan: Plan
     report: PlanReport | None = None
+    is_measuring: bool = False
+    """Whether a report is to come."""
 
 
 def planned(
@@ -66,6 +68,8 @@ def planned(
     ----------
     settings : Settings
         What is to be seen, not how well.
+    rounds : int
+        How often everything is timed; 0: nothing is measured.
     """
 
     def watch(done: float, doing: str) -> None:
@@ -74,7 +78,9 @@ def planned(
         progress(done, doing)
 
     found = PlanShown(scene, title, plan(scene, tolerance, settings, watch))
-    part_done(found)
+    if not rounds:
+        return found
+    part_done(replace(found, is_measuring=True))
     return replace(found, report=check_plan(scene, found.plan, rounds, watch, times_each=True))
 
 
@@ -117,9 +123,9 @@ def _request(
 
 
 EMPTY = (
-    "The choices appear here, one for each stage, with the reason, the predicted and the measured error: clipping or "
-    "none, a depth buffer or none, how many samples. Analyse (F5) takes a few seconds, longer for a large scene. "
-    "Apply then uses the settings on the Step page."
+    "The choices appear here, one for each stage, with the reason and the predicted error: clipping or none, a depth "
+    "buffer or none, how many samples. Analyse (F5) measures them: a few seconds, longer for a large scene. Apply then "
+    "uses the settings on the Step page."
 )
 
 
@@ -144,7 +150,7 @@ def summary_of(shown: PlanShown, applied: str, stale: str) -> SummaryRecord:
     plan, report = shown.plan, shown.report
     return SummaryRecord(
         applied=applied,
-        headline=headline(plan, report),
+        headline=headline(plan, report, is_measuring=shown.is_measuring),
         details="" if report is None else details(plan, report),
         is_within=None if report is None else report.is_within,
         about=about(shown.title, shown.scene.size, plan.tolerance),
@@ -201,10 +207,11 @@ def _numbers(decision: Decision, outcome: Outcome | None, report: PlanReport | N
     return "\n".join(lines)
 
 
-def headline(plan: Plan, report: PlanReport | None) -> str:
+def headline(plan: Plan, report: PlanReport | None, *, is_measuring: bool = False) -> str:
     """Return in one sentence what the plan comes to."""
     if report is None:
-        return f"Predicted: at most {in_bytes(plan.predicted_error)} off{predicted_time(plan, ', ')}. Measuring …"
+        end = "Measuring …" if is_measuring else "Analyse (F5) measures it."
+        return f"Predicted: at most {in_bytes(plan.predicted_error)} off{predicted_time(plan, ', ')}. {end}"
     everything, chosen = (
         float(np.median(each)) for each in (report.seconds_everything, report.seconds_chosen)
     )
