@@ -1,13 +1,13 @@
 """The start page: what the program is, what to press, files to open, the lessons, and what was open last."""
 
 import os
-from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Slot
+from PySide6.QtCore import QEvent, QObject, QPoint, Qt, QTimer, Slot
 from PySide6.QtGui import QKeyEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractButton,
@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.background import Job, Progress
+from app.background import Job
 from app.pages.lessons.lesson_list import LessonsPresenter
 from app.pages.page_bar import Page
 from app.session.moment import Change
@@ -75,12 +75,16 @@ class StartPage(Page):
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self._job = Job(self, (), part_done=self._show_picture)
+        self._job = Job(self, (), succeeded=self._show_picture)
+        """Draws a picture."""
         self._painted = QTimer(self)
         """Runs until the page that is shown is painted."""
         self._painted.setSingleShot(True)
         self._painted.setInterval(PAINTED_MS)
         self._painted.timeout.connect(self._fill)
+        self._moved = QTimer(self, singleShot=True)
+        """Runs until other scenes are in sight."""
+        self._moved.timeout.connect(self._draw_next)
         self.cards = SceneCards(self)
         groups = {"Scenes": CATALOGUE, **{LECTURES[name]: scenes for name, scenes in LECTURE_SCENES.items()}}
         self.cards.show_scenes(
@@ -122,6 +126,9 @@ class StartPage(Page):
         self._side_pane, scenes = (QWidget(pane.viewport()) for pane in self._panes)
         for pane, content in zip(self._panes, (self._side_pane, scenes), strict=True):
             pane.setWidget(content)
+        bar = self._panes[1].verticalScrollBar()
+        for moved in (bar.valueChanged, bar.rangeChanged, self.lessons.job.ended):
+            moved.connect(self._look)
         self._fill_side(self._side_pane)
         self._fill_scenes(scenes)
         row.addWidget(self._panes[0])
@@ -234,7 +241,8 @@ class StartPage(Page):
     @property
     def is_drawing(self) -> bool:
         """Whether pictures are still being drawn, or lessons read."""
-        return self._painted.isActive() or self._job.is_running or self.lessons.job.is_running
+        is_due = self._painted.isActive() or self._moved.isActive()
+        return is_due or self._job.is_running or self.lessons.job.is_running
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Give the left column the width that its text needs, if the scenes keep most of the page."""
@@ -247,22 +255,35 @@ class StartPage(Page):
         self._panes[0].setFixedWidth(max(wanted, self._side_pane.minimumSizeHint().width()))
 
     def showEvent(self, event: QShowEvent) -> None:
-        """Begin to draw and to read in the background, once the page is painted."""
+        """Begin to read and to draw in the background, once the page is painted."""
         super().showEvent(event)
         self._painted.start()
 
     @Slot()
     def _fill(self) -> None:
-        """Draw the pictures when they are first seen; list the lessons as they are now."""
+        """List the lessons as they are now: the scenes come below them."""
         self.lessons.refresh()
-        if not self._job.is_running and not all(card.has_picture() for card in self.cards.cards):
-            self._job.start_in_parts(draw_pictures)
+
+    @Slot()
+    def _look(self) -> None:
+        self._moved.start()
+
+    @Slot()
+    def _draw_next(self) -> None:
+        """Draw the picture that is missing nearest to what is in sight, one after the other."""
+        if self.is_drawing or not self.isVisible():
+            return
+        pane = self._panes[1].viewport()
+        name = self.cards.next_without_picture(self.cards.mapFrom(pane, QPoint()).y(), pane.height())
+        if name:
+            self._job.call(partial(drawn, ALL_SCENES[name]))
 
     @Slot(object)
-    def _show_picture(self, part: tuple[str, str, NDArray[np.uint8]]) -> None:
-        name, self._digests[name], pixels = part
+    def _show_picture(self, picture: tuple[str, str, NDArray[np.uint8]]) -> None:
+        name, self._digests[name], pixels = picture
         self._hide_asked()
         self.cards.show_picture(name, display_image(pixels))
+        self._draw_next()
 
     def _hide_asked(self) -> None:
         """Hide the picture of a scene that an exercise or a lesson asks about."""
@@ -341,19 +362,15 @@ class StartPage(Page):
     def stop(self) -> None:
         """End drawing and reading."""
         self._painted.stop()
+        self._moved.stop()
         self.lessons.rest.stop()
         super().stop()
 
 
-def draw_pictures(
-    progress: Progress, is_cancelled: Callable[[], bool], part_done: Callable[[object], None]
-) -> None:
-    """Draw the built-in scenes for their cards: name, digest and (H, W, 4) uint8 pixels of each, one by one."""
-    for built_in in ALL_SCENES.values():
-        if is_cancelled():
-            return
-        scene = built_in.make()
-        part_done((built_in.name, scene_digest(scene), picture_of(built_in, scene)))
+def drawn(built_in: BuiltInScene) -> tuple[str, str, NDArray[np.uint8]]:
+    """Return name, digest and picture of a built-in scene, as `picture_of`."""
+    scene = built_in.make()
+    return built_in.name, scene_digest(scene), picture_of(built_in, scene)
 
 
 def picture_of(built_in: BuiltInScene, scene: AnyScene) -> NDArray[np.uint8]:

@@ -177,6 +177,16 @@ class SceneCards(QWidget):
         """Show the picture of a scene by its name."""
         next(card for card in self.cards if card.entry.name == name).show_picture(image)
 
+    def next_without_picture(self, top: int, height: int) -> str:
+        """Return the scene nearest to a part in sight that has no picture yet; empty: none up to half of it away."""
+        far = {}
+        for card in self.cards:
+            if not (card.has_picture() or card.isHidden()):
+                y = card.mapTo(self, QPoint()).y()
+                far[card.entry.name] = max(y - top - height, top - y - card.height(), 0)
+        name = min(far, key=far.__getitem__, default="")
+        return name if far and far[name] <= height // 2 else ""
+
     def hide_pictures(self, names: Set[str], why: str) -> None:
         """Show words in place of the pictures of these scenes, and of no others."""
         for card in self.cards:

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QPushButton
 from pytestqt.qtbot import QtBot
@@ -26,14 +26,44 @@ def page(window: MainWindow, qtbot: QtBot) -> StartPage:
     return shown
 
 
-def test_every_scene_has_a_card_with_a_picture_of_it(page: StartPage) -> None:
+def test_every_scene_has_a_card(page: StartPage) -> None:
     assert [card.entry.name for card in page.cards.cards] == list(ALL_SCENES)
     for card, scene in zip(page.cards.cards, ALL_SCENES.values(), strict=True):
-        assert card.has_picture()
         assert (card.accessibleName(), card.accessibleDescription()) == (scene.title, scene.card)
         assert min(card.width(), card.height()) > 24
     groups = dict.fromkeys(card.parentWidget().accessibleName() for card in page.cards.cards)
     assert list(groups) == ["Scenes", *LECTURES.values()]
+
+
+@pytest.mark.own_window
+def test_pictures_are_drawn_ahead_of_the_eye_and_no_further(window: MainWindow, qtbot: QtBot) -> None:
+    window.resize(1280, 800)
+    window.pages.show_page("start")
+    page = window.pages.current
+    qtbot.waitUntil(lambda: page.lessons.place is not None and not page.is_drawing)
+    (pane, cards), drawn = (page.cards.parentWidget().parentWidget(), page.cards.cards), []
+    bar = pane.parentWidget().verticalScrollBar()
+    for place in range(0, bar.maximum() + bar.pageStep(), bar.pageStep() // 2):
+        bar.setValue(place)
+        qtbot.waitUntil(lambda: not page.is_drawing)
+        tops = [card.mapTo(pane, QPoint()).y() for card in cards]
+        near = [card for card, top in zip(cards, tops, strict=True) if top <= 1.5 * pane.height()]
+        drawn.append([card for card in cards if card.has_picture()])
+        assert drawn[-1] == near, "those of all scenes down to half a screen below what is seen"
+    assert [len(some) < len(cards) for some in (drawn[0], drawn[-1])] == [True, False]
+    page.search.setText("shared edge")
+    assert not page.is_drawing
+
+
+@pytest.mark.own_window
+def test_what_is_in_sight_is_drawn_first(window: MainWindow, qtbot: QtBot) -> None:
+    window.pages.show_page("start")
+    page = window.pages.current
+    order = []
+    page._job.succeeded.connect(lambda picture: order.append(picture[0]))
+    page.search.setText(list(ALL_SCENES.values())[-1].title)
+    qtbot.waitUntil(lambda: bool(order) and not page.is_drawing)
+    assert order[0] == next(card.entry.name for card in page.cards.cards if card.isVisible())
 
 
 def test_typed_words_leave_the_lessons_and_scenes_that_have_them(
