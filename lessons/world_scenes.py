@@ -53,11 +53,11 @@ def boxes_around() -> Scene:
 
 def colored_boxes(boxes: Sequence[tuple[Sequence[float], Sequence[float]]]) -> tuple[Mesh, ...]:
     """Return a mesh for each box, given by middle and sides; colours repeat."""
-    meshes = []
+    meshes, shape = [], cube(1.0)
     for number, (middle, sides) in enumerate(boxes):
         matrix = np.diag([*sides, 1.0])
         matrix[:3, 3] = middle
-        shape, color = cube(1.0), linear_color(FACE_COLORS[number % len(FACE_COLORS)])
+        color = linear_color(FACE_COLORS[number % len(FACE_COLORS)])
         colors = np.tile(color, (len(shape.positions), 1))
         meshes.append(replace(shape, transform=matrix, colors=colors, name=f"box {number}"))
     return tuple(meshes)

@@ -74,3 +74,11 @@ def test_the_list_of_lessons_waits_for_nothing_that_only_an_open_lesson_needs() 
     imported = imported_by("from app.pages.lessons.lesson_list import read_lessons; read_lessons()")
     assert "lessons.course.catalogue" in imported
     assert not {"lessons.course.record", "lessons.mistakes.shelf", "lessons.exercises.toml_values"} & imported
+
+
+def test_opening_a_lesson_waits_for_no_study_and_for_no_exercise_that_is_not_asked() -> None:
+    imported = imported_by(
+        "from app.pages.lessons.presenter import found_lesson; found_lesson('pixel-centres', None)"
+    )
+    assert "app.pages.lessons.walk" in imported
+    assert not {"lessons.course.validation", "core.study.families", "lessons.exercises.catalogue"} & imported

@@ -400,7 +400,6 @@ def found_lesson(wanted: "Lesson | str | Path", step: int | None) -> Found:
     from app.files.user_folders import whole_course
     from app.pages.lessons.question import progress_in
     from lessons.course.catalogue import FOLDER, read_lesson
-    from lessons.course.validation import validate
 
     course = whole_course()
     if isinstance(wanted, str):
@@ -411,5 +410,9 @@ def found_lesson(wanted: "Lesson | str | Path", step: int | None) -> Found:
     else:
         lesson = wanted
     if lesson.path.parent != FOLDER:
+        from lessons.course.validation import (
+            validate,
+        )  # With all studies: not for what ships with the program.
+
         validate(lesson, {*course.lessons, lesson.name})
     return Found(course, lesson, step, progress_in(lesson, course))

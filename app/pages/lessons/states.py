@@ -27,7 +27,6 @@ from lessons.course.quoted import Situation
 from lessons.course.state import State
 from lessons.course.tasks import is_done
 from lessons.course.unmet import unmet
-from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import Question
 from widgets.exercises.records import LessonStepRecord, Standing
 
@@ -122,6 +121,8 @@ def answered(text: str) -> str:
 
 def end_record(lesson: Lesson, following: Lesson | None, standings: Sequence[Standing]) -> LessonStepRecord:
     """Return the end: what one can answer now, exercises, and the question of the next lesson."""
+    from lessons.exercises.catalogue import TEMPLATES  # The walk has imported it, off the GUI thread.
+
     part = lesson.part
     said = [f"You can now answer: {answered(paragraphs(part.answers))}" if part.answers else ""]
     if following is not None:

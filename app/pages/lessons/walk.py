@@ -15,7 +15,6 @@ from lessons.course.catalogue import Course, Lesson
 from lessons.course.record import StepPart
 from lessons.course.state import States
 from lessons.course.tasks import question_of
-from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import ask
 from lessons.run_place import RunPlace
 from widgets.exercises.records import LessonStepRecord, Standing
@@ -157,6 +156,10 @@ class LessonWalk(QObject):
     def _wanted(self, lesson: Lesson, number: int) -> Wanted:
         """Return the state of a step, and what it asks; the end keeps the last step's, or what it revealed."""
         states = self._states_of(lesson)
+        if number >= len(lesson.steps) or (number < 0 and self._recall):
+            from lessons.exercises.catalogue import (
+                TEMPLATES,
+            )  # All exercises: not before one of them is named.
         if number < 0 and self._recall:
             question = ask(TEMPLATES[self._recall], self._seed)
             first = states.of_step(0)
