@@ -103,7 +103,7 @@ class StartPage(Page):
         self.lessons.lesson_requested.connect(self.lesson_requested)
         self.lessons.place_changed.connect(self._show_place)
         self.lessons.refused.connect(self.edit_refused)
-        self.lesson_button = button_with_tip("", "Open the lesson in which you go on", self)
+        self.lesson_button = button_with_tip("", "Open this lesson at its next step", self)
         self.lesson_button.clicked.connect(self.lessons.go_on)
         self.lesson_button.setProperty("role", "primary")
         self.lesson_button.hide()

@@ -1,7 +1,8 @@
 """The keyboard and the screen reader: where Tab goes, who gets a key, and what a painted view is and says."""
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from functools import cache
+from itertools import cycle
 
 from PySide6.QtCore import QEvent, QObject, QRect, Qt, QTimer, Slot
 from PySide6.QtGui import (
@@ -264,6 +265,10 @@ _HOLDERS = ("QWidget", "QScrollArea")
 """Classes of Qt that say nothing of what they hold."""
 NOTICE_PLATFORMS = ("wayland", "xcb")
 """Where Orca reads the screen: before its version 45 it says notices that appear, but no announcements."""
+NOTICES = 4
+"""Announcements that may be under way to it at a time."""
+NOTICE_PAUSE = 150
+"""Milliseconds before one appears: in a flood of other events, as of a page that opens, it would be lost."""
 
 
 class _View(QAccessibleWidget):
@@ -288,6 +293,8 @@ def _interface(class_name: str, owner: QObject) -> QAccessibleInterface | None:
     role = getattr(owner, "spoken_role", None)
     if role is None and class_name in _HOLDERS and owner.accessibleName():
         role = QAccessible.Role.Grouping
+    if role is None and class_name == "QStackedWidget":
+        role = QAccessible.Role.Client  # Orca says "layered pane" of it, which helps nobody.
     return None if role is None else _View(owner, role)
 
 
@@ -298,26 +305,39 @@ def install_roles() -> None:
 
 
 class _Notice(QWidget):
-    """Never seen: its name is what was announced last, and to a screen reader it appears anew each time."""
+    """Never seen: its name is what was announced, and to a screen reader it appears anew each time."""
 
     spoken_role = QAccessible.Role.Notification
 
+
+class _Notices(QObject):
+    """Says what is announced in one of a few notices, in turn: a screen reader asks for a name a moment later."""
+
     def __init__(self, window: QWidget) -> None:
         super().__init__(window)
-        self.hide()
+        notices = [_Notice(window) for _ in range(NOTICES)]
+        for notice in notices:
+            notice.hide()
+        self._notices = cycle(notices)
         self._due: list[str] = []
 
     def say(self, text: str) -> None:
-        """Appear with this text, and with all else that is announced at once: the next one would cut it off."""
+        """Let a notice appear with this text, and with all else that is announced at once."""
         if not self._due:
-            QTimer.singleShot(0, self, self._appear)
+            QTimer.singleShot(NOTICE_PAUSE, self, self._appear)
         self._due.append(text)
 
     @Slot()
     def _appear(self) -> None:
-        self.setAccessibleName(" ".join(self._due))
+        notice = next(self._notices)
+        notice.setAccessibleName(sentences(self._due))
         self._due.clear()
-        QAccessible.updateAccessibility(QAccessibleEvent(self, QAccessible.Event.ObjectShow))
+        QAccessible.updateAccessibility(QAccessibleEvent(notice, QAccessible.Event.ObjectShow))
+
+
+def sentences(texts: Iterable[str]) -> str:
+    """Return texts to be said one after the other, each as a sentence; empty ones are left out."""
+    return " ".join(text if text[-1] in ".?!:" else f"{text}." for text in texts if text)
 
 
 def announce(source: QWidget, text: str, *, is_urgent: bool = False) -> None:
@@ -326,8 +346,8 @@ def announce(source: QWidget, text: str, *, is_urgent: bool = False) -> None:
         return
     if QGuiApplication.platformName() in NOTICE_PLATFORMS:
         window = source.window()
-        notice = window.findChild(_Notice) or _Notice(window)
-        notice.say(text)
+        notices = window.findChild(_Notices) or _Notices(window)
+        notices.say(text)
     else:
         event = QAccessibleAnnouncementEvent(source, text)
         levels = QAccessible.AnnouncementPoliteness

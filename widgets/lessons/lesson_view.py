@@ -7,7 +7,7 @@ from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent, QPen, QResiz
 from PySide6.QtWidgets import QAbstractButton, QLabel, QPushButton, QWidget
 
 from core.records.cells import Form
-from widgets.basics.accessibility import ArrowGroup, announce
+from widgets.basics.accessibility import ArrowGroup, announce, sentences
 from widgets.basics.controls import (
     LEAST_TARGET,
     FlowLayout,
@@ -247,8 +247,7 @@ class LessonView(QWidget):
         self.show_note("")
         self.show_feedback(None)
         self.show_standings(record)
-        parts = filter(None, (self.spoken_place(), record.lead, record.text, record.task))
-        announce(self, " ".join(part if part[-1] in ".?!:" else f"{part}." for part in parts))
+        announce(self, sentences((self.spoken_place(), record.lead, record.text, record.task)))
         return self.answer
 
     def show_standings(self, record: LessonStepRecord) -> None:
