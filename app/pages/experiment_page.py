@@ -160,6 +160,10 @@ class ExperimentPage(Page):
 
     # As a page of the window.
 
+    def show_way_back(self, is_shown: bool, task: str = "") -> None:
+        """Keep in sight what the step of the open lesson asks here."""
+        self.controls.show_task(task)
+
     def set_presenting(self, is_presenting: bool) -> None:
         """Leave the room to the result and name it: only what is opened of it shares the room."""
         if is_presenting == (self._desk is not None):

@@ -238,8 +238,8 @@ class Page(QWidget):
     def set_presenting(self, is_presenting: bool) -> None:
         """Leave out what an audience does not need, or bring it back."""
 
-    def show_way_back(self, is_shown: bool) -> None:
-        """Offer to go back to the lesson that is open on the Step page, where the page closes lessons."""
+    def show_way_back(self, is_shown: bool, task: str = "") -> None:
+        """Offer to go back to the lesson that is open on the Step page; ``task``: what its step asks on this page."""
 
     def leave(self) -> None:
         """Stop what nobody sees: another page is shown now."""

@@ -211,7 +211,8 @@ class MainWindow(ActionWindow):
         self.overlays.show_page(name)
         self.pages.current.show_preferences(self.memory.preferences)
         self._show_pointed()
-        self.pages.current.show_way_back(self.page.lessons.is_open)
+        lessons = self.page.lessons
+        self.pages.current.show_way_back(lessons.is_open, lessons.asked_on(name))
 
     @Slot()
     def _show_step(self) -> None:

@@ -55,7 +55,9 @@ def _some(until: UntilPart, situation: Situation, start: Situation) -> str:
 
 
 def _none(until: UntilPart, situation: Situation, start: Situation) -> str:
-    return "a step of this stage still does what none should do"
+    count = max(int(np.count_nonzero(flags_of(condition, situation.trace))) for condition in until.none)
+    said = "step of this stage still does" if count == 1 else "steps of this stage still do"
+    return f"{count:,} {said} what none should do"
 
 
 def _counted(until: UntilPart, situation: Situation, start: Situation) -> str:

@@ -261,6 +261,7 @@ class RunPanel(QWidget):
         # An elided label takes any width by itself; here it keeps its own, so that a line that is full wraps.
         self.doing.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.rows = column_layout(self, 8, margins=(8, 8, 8, 8))
+        self._introduction = intro
         self.intro = text_label(intro, self, name="What this page shows", wraps=True, is_selectable=True)
         self.rows.addWidget(self.intro)
         self._controls: list[QWidget] = []
@@ -313,6 +314,11 @@ class RunPanel(QWidget):
         return flow
 
     # Showing.
+
+    def show_task(self, task: str) -> None:
+        """Show what is asked here instead of the introduction; empty: the introduction."""
+        self.intro.setText(task or self._introduction)
+        self.keep_height()
 
     def set_brief(self, is_brief: bool) -> None:
         """Leave the introduction and all rows but the last out, or bring them back."""

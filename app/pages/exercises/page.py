@@ -258,7 +258,7 @@ class ExercisesPage(Page):
         """Ask a question of the exercise with a name."""
         self._open(self.exercises.templates[name], None)
 
-    def show_way_back(self, is_shown: bool) -> None:
+    def show_way_back(self, is_shown: bool, task: str = "") -> None:
         """Offer to go back to the lesson that is open on the Step page."""
         self.question_view.lesson_button.setVisible(is_shown)
 

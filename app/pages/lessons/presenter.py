@@ -91,6 +91,15 @@ class LessonPresenter(QObject):
         """Whether a lesson has a question open."""
         return self.walk is not None and self.walk.answers.is_open
 
+    def asked_on(self, page: str) -> str:
+        """Return what the open step asks on another page of the window, to which it leads; empty: nothing."""
+        walk = self.walk
+        if walk is None or walk.lesson is None or walk.step is None:
+            return ""
+        if (walk.step.show or "").split("/")[0] != page:
+            return ""
+        return f"The lesson “{walk.lesson.title}” asks: {walk.step.task} Go on with it on the Step page."
+
     @property
     def is_before_a_class(self) -> bool:
         """Whether a lesson is presented: what is to be read goes before what could be clicked."""

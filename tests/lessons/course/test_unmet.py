@@ -22,6 +22,13 @@ def test_a_task_says_what_it_lacks_until_it_is_done(lesson: Lesson) -> None:
         assert unmet(step.until, after, before) == ""
 
 
+def test_steps_that_none_should_do_are_counted() -> None:
+    lesson = shipped().lessons["row-by-row"]
+    start, until = situation_of(States(lesson).of_step(4)), lesson.steps[4].until
+    assert until is not None
+    assert unmet(until, start, start) == "Not yet: 71 steps of this stage still do what none should do."
+
+
 @pytest.mark.parametrize(
     ("name", "number", "line", "said"),
     [

@@ -226,6 +226,20 @@ def test_the_exercise_that_closes_a_lesson_leads_back_to_it(
     assert back.isHidden()
 
 
+def test_what_a_step_asks_on_another_page_stays_in_sight_there(window: MainWindow, qtbot: QtBot) -> None:
+    lessons = window.page.lessons
+    lessons.open("row-by-row", 5)
+    task = settled(window, qtbot).step.task
+    intros = []
+    for name in ("compare", "stability"):
+        window.pages.show_page(name)
+        intros.append(window.pages.current.controls.intro)
+    assert [task in intro.text() for intro in intros] == [True, False]
+    lessons.close()
+    window.pages.show_page("compare")
+    assert task not in intros[0].text()
+
+
 def test_no_step_stands_beside_a_whole_picture_and_a_listing_that_is_typed(
     window: MainWindow, qtbot: QtBot
 ) -> None:

@@ -26,3 +26,11 @@ def test_the_methods_of_a_task_are_listed_or_the_text_names_the_button(qtbot: Qt
             combo = panel.combo(family)
             assert combo.isVisibleTo(panel), (number + 1, family)
             assert combo.findData(str(value)) >= 0, (number + 1, family, value)
+
+
+@pytest.mark.parametrize("name", list(shipped().lessons))
+def test_a_task_on_depths_or_the_camera_opens_the_scene_pane(name: str) -> None:
+    lesson = shipped().named(name)
+    for number, part in enumerate(lesson.steps):
+        if part.solution is not None and (part.solution.depth or part.solution.camera):
+            assert "scene" in States(lesson).of_step(number).panes, number + 1
