@@ -224,9 +224,9 @@ class GridDisplay(QWidget):
         """Paint what changes at every move: triangle, step, pin, hover, and the rulers' numbers."""
         theme = current_theme()
         painter.save()
-        painter.setClipRect(placement.seen_raster if self._compact else placement.viewport)
         if self._geometry is not None:
             self._paint_geometry(painter, placement, self._geometry)
+        painter.setClipRect(placement.seen_raster if self._compact else placement.viewport)
         paint_step_mark(painter, placement, self._step, theme, self._written(placement))
         if self._pin is not None and self._is_inside(self._pin):
             self._paint_pin(painter, placement, self._pin)

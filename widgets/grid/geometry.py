@@ -267,12 +267,12 @@ def paint_focus(
         )
         painter.drawLine(line)
     if not small:
-        painter.setClipRect(placement.viewport)
         scale *= handle_part(placement, geometry)
         for place in range(len(corners)):
             position = vertex_place(geometry, placement, corners[place])
             if position is None:
                 continue
+            _clip_handle(painter, placement, position)
             radius = HANDLE_RADIUS * scale + (1.5 if corners[place] == held else 0.0)
             painter.setPen(Qt.PenStyle.NoPen)
             for color, more in (
@@ -283,6 +283,7 @@ def paint_focus(
                 painter.setBrush(QColor(color))
                 painter.drawEllipse(position, radius + more / 2, radius + more / 2)
         _paint_snapped(painter, placement, geometry, corners, scale)
+        painter.setClipRect(placement.viewport)
         painter.setFont(name_font(theme))
         for box, text, color in names:
             paint_chip(painter, box, text, color, theme)
@@ -300,6 +301,13 @@ def handle_part(placement: GridPlacement, geometry: GridGeometry) -> float:
     return float(np.clip(shortest / (4 * HANDLE_RADIUS), _LEAST_HANDLE, 1.0))
 
 
+def _clip_handle(painter: QPainter, placement: GridPlacement, position: QPointF) -> None:
+    """Leave a handle whole whose middle is in sight, as on the border of the raster, and cut another off."""
+    painter.setClipRect(placement.viewport)
+    if QRectF(placement.viewport).adjusted(-1, -1, 1, 1).contains(position):
+        painter.setClipping(False)
+
+
 def _paint_snapped(
     painter: QPainter,
     placement: GridPlacement,
@@ -315,6 +323,7 @@ def _paint_snapped(
         place = _place(placement, geometry.snapped[corner])
         if place is None:
             continue
+        _clip_handle(painter, placement, place)
         tips = (QPointF(0, -size), QPointF(size, 0), QPointF(0, size), QPointF(-size, 0))
         diamond = QPolygonF([place + tip for tip in tips])
         painter.setBrush(Qt.BrushStyle.NoBrush)

@@ -123,3 +123,20 @@ def test_a_lone_triangle_in_focus_has_no_outline() -> None:
     alone = GridGeometry(np.array([[1.0, 1.0], [14.0, 2.0], [5.0, 10.0]]), np.array([[0, 1, 2]]))
     nothing = on_canvas(lambda painter: None)
     assert np.array_equal(by_layer(OutlineLayer(), placed(), alone), nothing)
+
+
+def test_a_handle_on_the_border_of_the_raster_is_whole_and_one_beyond_it_is_cut_off() -> None:
+    inner = AREA.adjusted(20, 20, -20, -20)
+    placement = place(16, 12, inner, GridView())
+
+    def around(x: float, y: float) -> np.ndarray:
+        vertex = GridGeometry(np.array([[x, y]]), np.zeros((1, 3), int), focus=0)
+        picture = on_canvas(lambda p: paint_focus(p, placement, vertex, LIGHT, None, QRegion(inner), []))
+        column, row = round(placement.left + x * placement.cell), round(placement.bottom - y * placement.cell)
+        return picture[row - 12 : row + 12, column - 12 : column + 12]
+
+    whole = around(8, 6)
+    assert np.unique(whole.reshape(-1, 4), axis=0).shape[0] > 2
+    for corner in ((0, 0), (16, 0), (16, 12), (0, 12), (5, 0)):
+        assert np.array_equal(around(*corner), whole), corner
+    assert (around(8, -1) == around(8, -1)[-1, 0]).all(axis=2)[14:].all(), "nothing below the viewport"
