@@ -146,7 +146,7 @@ class TypedValue(QWidget):
                 self._show_text(is_full=True)
                 if event.reason() != Qt.FocusReason.MouseFocusReason:
                     self.edit.selectAll()
-        return super().eventFilter(watched, event)
+        return False
 
     @Slot()
     def _commit(self) -> None:
@@ -180,9 +180,11 @@ class TypedValue(QWidget):
         return f"expected a number between {number_text(self._lowest)} and {number_text(self._highest)}"
 
     def _show_text(self, is_full: bool = False) -> None:
-        self.edit.setText(full_text(self._value) if is_full else self._fitting_text())
+        text = full_text(self._value) if is_full else self._fitting_text()
+        if text != self.edit.text() or self.edit.isModified():
+            self.edit.setText(text)
+            self.edit.setModified(False)
         self.edit.setCursorPosition(0)
-        self.edit.setModified(False)
         several = "\nType 1.5, 3 to fill the next field too." if self._most > 1 else ""
         self.edit.setToolTip(
             f"{self._name} = {full_text(self._value)}\nAccepts decimals, fractions (3/256) and pi.{several}"

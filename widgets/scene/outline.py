@@ -3,9 +3,18 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal, Slot
+from PySide6.QtCore import QSize, Qt, Signal, Slot
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QCheckBox, QGridLayout, QLabel, QScrollArea, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import (
+    QApplication,
+    QCheckBox,
+    QGridLayout,
+    QLabel,
+    QScrollArea,
+    QSizePolicy,
+    QToolButton,
+    QWidget,
+)
 
 from widgets.basics.accessibility import KeyClaim
 from widgets.basics.controls import column_layout, text_label
@@ -116,6 +125,8 @@ class SceneOutline(QScrollArea):
         self._flags: dict[str, QCheckBox] = {}
         self._labels: dict[str, _RowLabel] = {}
         self._bodies: dict[str, QWidget] = {}
+        self._rows: dict[QWidget, str] = {}
+        """Paths of rows, by what takes the focus for their numbers."""
         self._selected = ""
         self.setWidgetResizable(True)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
@@ -123,6 +134,7 @@ class SceneOutline(QScrollArea):
         self.setCornerWidget(QWidget(self))
         self.setAccessibleName("Scene outline")
         theme_notifier().theme_changed.connect(self._follow_theme)
+        QApplication.instance().focusChanged.connect(self._follow_focus)  # type: ignore[union-attr]
         self._build()
 
     @Slot(object)
@@ -173,22 +185,18 @@ class SceneOutline(QScrollArea):
         """Room for a label and four short numbers."""
         return QSize(304, 400)
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+    @Slot(QWidget, QWidget)
+    def _follow_focus(self, before: QWidget | None, now: QWidget | None) -> None:
         """Select the row whose number takes the focus."""
-        if event.type() == QEvent.Type.FocusIn:
-            for group in self._groups:
-                for row in group.rows:
-                    paths = [f"{row.path}/{value.name}" for value in row.values]
-                    fields = [self._flags.get(path) or self._fields[path].edit for path in paths]
-                    if watched in fields:
-                        self.choose_row(row.path)
-        return super().eventFilter(watched, event)
+        if now in self._rows:
+            self.choose_row(self._rows[now])
 
     def _build(self) -> None:
         self._fields.clear()
         self._flags.clear()
         self._labels.clear()
         self._bodies.clear()
+        self._rows.clear()
         content = QWidget()
         content.setProperty("role", "panel")
         content.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
@@ -264,7 +272,7 @@ class SceneOutline(QScrollArea):
         field = TypedValue(f"{row.label} {value.name}", parent, is_compact=True)
         field.setObjectName(path)
         field.set_range(value.lowest, value.highest)
-        field.edit.installEventFilter(self)
+        self._rows[field.edit] = row.path
         field.set_most_numbers(len(row.values) - row.values.index(value))
         field.value_committed.connect(self._edit)
         field.values_committed.connect(self._edit_several)
@@ -277,7 +285,7 @@ class SceneOutline(QScrollArea):
         box.setObjectName(path)
         box.setAccessibleName(row.label)
         box.setToolTip(row.note or row.label)
-        box.installEventFilter(self)
+        self._rows[box] = row.path
         box.clicked.connect(self._check)
         self._flags[path] = box
         return box

@@ -259,9 +259,10 @@ class LessonStates(QObject):
             if session.moment is before:
                 page.grids.show_again()
             page.main_area.views_by_hand.clear()
-            if panes and set(panes) != set(page.desk_panes()):
-                page.show_desk_panes(panes)  # Before the pictures of A | B find their places.
-            self._show_view(state)
+            with page.main_area.arranged_once():
+                if panes and set(panes) != set(page.desk_panes()):
+                    page.show_desk_panes(panes)  # Before the pictures of A | B find their places.
+                self._show_view(state)
         if state.pixel is not None and state.other is not None:
             page.comparing.meeting.meet_at(state.pixel)
         page.column.show_step()
@@ -289,16 +290,21 @@ def _both_settings(state: State) -> tuple[Settings, Settings | None]:
     return settings_as_printed(state.printed, Document(state.scene, raster, state.settings))
 
 
-def _second(document: Document, stage: str, other: Settings) -> tuple[Document, Trace] | None:
-    """Trace what B draws up to a stage; ``None`` where it cannot: A | B says why."""
-    second = replace(document, settings=other)
+def _second(
+    document: Document, stage: str, other: Settings, known: tuple[OpenState, ...]
+) -> tuple[Document, Trace] | None:
+    """Trace what B draws up to a stage, or go on with what is ``known``; ``None`` where it cannot: A | B says why."""
+    beside = (each.second for each in known if each.document is document)
+    made = next((each for each in beside if each is not None and each[0].settings == other), None)
     try:
-        second.check_length()
-        run = second.make_trace()
-        run.stage(stage)
+        if made is None:
+            second = replace(document, settings=other)
+            second.check_length()
+            made = second, second.make_trace()
+        made[1].stage(stage)
     except ValueError:
         return None
-    return second, run
+    return made
 
 
 def opened(state: State, asked: LessonQuestion | None, known: tuple[OpenState, ...]) -> OpenState:
@@ -315,7 +321,7 @@ def opened(state: State, asked: LessonQuestion | None, known: tuple[OpenState, .
         run = trace_now(document, state.stage)
     largest_tables(run.stage(state.stage))  # What the window gives room to.
     cursor = cursor_at(state.place, run, Level.PIXEL)
-    second = None if other is None else _second(document, cursor.stage, other)
+    second = None if other is None else _second(document, cursor.stage, other, known)
     return OpenState(state, document, run, cursor, second, asked)
 
 

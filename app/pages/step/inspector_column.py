@@ -191,12 +191,9 @@ class InspectorColumn(QTabWidget):
         self._make_room(0)
 
     def put_off(self, is_put_off: bool) -> None:
-        """Fit nothing until all is known that is shown; `fit_owed` does it once."""
+        """Fit nothing until all is known that is shown, then once."""
         self._is_put_off = is_put_off
-
-    def fit_owed(self) -> None:
-        """Fit what has been put off."""
-        if self._is_owed:
+        if self._is_owed and not is_put_off:
             self.fit()
 
     @Slot()
@@ -301,12 +298,14 @@ class SideColumn(QWidget):
 
     def show_lesson(self, lesson: "LessonScroll | None") -> None:
         """Show the pane of a lesson above the inspector, or no longer."""
-        if self._lesson is not None and self._lesson is not lesson:
+        if lesson is self._lesson:
+            return
+        if self._lesson is not None:
             self._layout.removeWidget(self._lesson)
             self._lesson.height_changed.disconnect(self._divide)
             self._lesson.hide()
-        is_new, self._lesson = lesson is not self._lesson, lesson
-        if lesson is not None and is_new:
+        self._lesson = lesson
+        if lesson is not None:
             self._layout.insertWidget(0, lesson, 0, Qt.AlignmentFlag.AlignTop)
             lesson.height_changed.connect(self._divide)
             lesson.show()
@@ -323,12 +322,14 @@ class SideColumn(QWidget):
     def put_off(self, is_put_off: bool) -> None:
         """Divide the height no more until all is known that is shown, then once."""
         self._is_put_off = is_put_off
-        self._inspector.put_off(is_put_off)
+        self._layout.setEnabled(not is_put_off)
         if not is_put_off:
             if self._lesson is not None:
                 self._lesson.measure_anew()
             self._divide()
-            self._inspector.fit_owed()
+            self._layout.invalidate()
+            self._layout.activate()
+        self._inspector.put_off(is_put_off)
 
     def set_idle(self, is_idle: bool) -> None:
         """Leave the inspector out of a lesson: no step has been done that it could show."""

@@ -1,6 +1,7 @@
 """The middle of the Step page: views, buffers and thumbnails, and the keys that do there what the wheel does."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, Qt, Signal, Slot
@@ -182,6 +183,22 @@ class MainArea(QWidget):
         if direction != self._row_layout.direction():
             self._row_layout.setDirection(direction)
             self._row.updateGeometry()
+            self._layout.activate()
+
+    @contextmanager
+    def arranged_once(self) -> Iterator[None]:
+        """Give what is shown its room at the end, when the width of the area and its view are chosen."""
+        stacked = self.view_stack.layout()
+        assert stacked is not None
+        for layout in (self._layout, stacked):
+            layout.setEnabled(False)
+        try:
+            yield
+        finally:
+            self._row_layout.activate()
+            for layout in (self._layout, stacked):
+                layout.setEnabled(True)
+                layout.invalidate()
             self._layout.activate()
 
     def _place_ranges(self) -> None:

@@ -1,6 +1,6 @@
 """Two runs of one stage that are stepped together: a fixed list of pairs of positions for each level."""
 
-from functools import cache, partial
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -29,7 +29,7 @@ class LockStep:
 
     def __init__(self, first: StageTrace, second: StageTrace, cursor: Cursor) -> None:
         self._runs = first, second
-        self.pairs = cache(partial(_pairs, first, second))
+        self.pairs = partial(_pairs, first, second)
         """Returns (K, 2) the positions of both, from their starts to their ends, in steps of a level."""
         self._level, self._index = cursor.level, 0
         self.positions = 0, 0
@@ -98,6 +98,7 @@ class LockStep:
         self.positions = position, int(pairs[self._index, 1]) if second is None else second
 
 
+@lru_cache(maxsize=len(Level))
 def _pairs(first: StageTrace, second: StageTrace, level: Level) -> Integers:
     runs = first, second
     ends = [run.steps.starts.searchsorted(run.steps.boundaries(min(level, Level.PIXEL))[1:]) for run in runs]

@@ -1,7 +1,7 @@
 """What A | B shows and says of two runs: each one's buffer and step, where the buffers differ, and the runs first."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,12 +17,26 @@ from core.records.arrays import Flags
 from core.records.words import joined
 from widgets.grid.compare_view import Side
 from widgets.grid.geometry import GridGeometry
-from widgets.grid.layers import CellMark, GridBuffer, MaskOverlay, number_text
+from widgets.grid.layers import CellMark, GridBuffer, MaskOverlay, Overlay, number_text
+from widgets.grid.marks import StepMark
 from widgets.inspector.listing import ListingText
 
 if TYPE_CHECKING:
     from core.study.divergence import Divergence  # Looked for long after the window is open.
 
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """What a grid shows of a run."""
+
+    buffers: Mapping[str, GridBuffer]
+    overlays: tuple[Overlay, ...]
+    geometry: GridGeometry
+    mark: StepMark
+
+
+Look = Callable[[Trace, Cursor], Seen]
+"""Returns what a grid shows of a run where it is."""
 Outlines = Callable[[Trace, Cursor], GridGeometry]
 """Returns the triangles of a run."""
 NAMED = 3
@@ -44,22 +58,22 @@ SHOWN_MARKS = ("rejected", "tie", "nan", "failed", *LANE_MARKS)
 
 
 def pictured(
-    sides: Sequence[Side], steps: Sequence[Step], outlines: Outlines, wanted: str, has_listings: bool
+    sides: Sequence[Side], steps: Sequence[Step], look: Look, wanted: str, has_listings: bool
 ) -> tuple[list[GridBuffer], str, tuple[Side, Side, Side]]:
     """Return the buffers that there are, which is shown, and sides with their pictures and their difference.
 
     A side without a step keeps its reason. ``wanted`` is the name of the buffer that is shown if there is one; with
     ``has_listings`` the listing of each last step is shown, and the line that has just run.
     """
-    buffers = [{buffer.name: buffer for buffer in buffers_of(step)} for step in steps]
-    known = {name: buffer for each in reversed(buffers) for name, buffer in each.items()}
-    shown = wanted if wanted in known else _first_comparable(buffers)
+    seen = [look(step.trace, step.cursor) for step in steps]
+    known = {name: buffer for each in reversed(seen) for name, buffer in each.buffers.items()}
+    shown = wanted if wanted in known else _first_comparable([each.buffers for each in seen])
     found = [
         replace(
-            _side_of(side, step, outlines, each.get(shown), has_listings),
+            _side_of(side, step, each, shown, has_listings),
             reason=f"{side.name} has no buffer “{known[shown].label}” in this stage.",
         )
-        for side, step, each in zip(sides, steps, buffers, strict=False)
+        for side, step, each in zip(sides, steps, seen, strict=False)
     ]
     pictures = compare(*found) if len(found) == 2 else (found[0], sides[1], nothing(sides[1].reason))
     return list(known.values()), shown, pictures
@@ -107,9 +121,19 @@ def _hold_the_same(a: GridBuffer, b: GridBuffer) -> bool:
     return a.kind != "scalar" or (a.unit, a.description) == (b.unit, b.description)
 
 
-def _side_of(
-    side: Side, step: Step, outlines: Outlines, buffer: GridBuffer | None, has_listing: bool
-) -> Side:
+def seen_of(outlines: Outlines, trace: Trace, cursor: Cursor) -> Seen:
+    """Return what a grid shows of a run where it is."""
+    step = Step(trace, cursor)
+    return Seen(
+        {buffer.name: buffer for buffer in buffers_of(step)},
+        tuple(overlay for overlay in mask_overlays(step) if overlay.key in SHOWN_MARKS),
+        outlines(trace, cursor if cursor.stage in OUTLINING else Cursor(STAGES[-1])),
+        step_mark(step),
+    )
+
+
+def _side_of(side: Side, step: Step, seen: Seen, shown: str, has_listing: bool) -> Side:
+    buffer = seen.buffers.get(shown)
     is_vain = buffer is not None and step.is_stage_done and step.steps.count > 0 and _is_empty(buffer)
     done = step.explanation if has_listing else None
     listing = None if done is None else done.listing
@@ -118,10 +142,10 @@ def _side_of(
         place=side.place + ("; it gives no pixel a value" if is_vain else ""),
         sentence=sentence_at(step),
         buffer=buffer,
-        overlays=tuple(overlay for overlay in mask_overlays(step) if overlay.key in SHOWN_MARKS),
-        geometry=outlines(step.trace, step.cursor if step.cursor.stage in OUTLINING else Cursor(STAGES[-1])),
+        overlays=seen.overlays,
+        geometry=seen.geometry,
         pixel_center=step.trace.source.settings.pixel_center,
-        step=step_mark(step),
+        step=seen.mark,
         listing=None if listing is None else ListingText(listing.name, listing.source, listing.purpose),
         line=0 if done is None else done.line,
     )

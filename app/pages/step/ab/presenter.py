@@ -253,12 +253,13 @@ class ComparePresenter(QObject):
             else:
                 self.set_active(self._is_active)
 
-    @staticmethod
-    def prepare(first: Trace, cursor: Cursor, document: Document, second: Trace) -> None:
-        """Find what is said of a B that may be shown next, and the settings that it offers."""
-        run = second.stage(cursor.stage)
-        steps = LockStep(first.stage(cursor.stage), run, cursor)
-        sentence_at(Step(second, replace(cursor, position=steps.positions[1])))
+    def prepare(self, first: Trace, cursor: Cursor, document: Document, second: Trace) -> None:
+        """Find what is seen and said of a B that may be shown next, and the settings that it offers."""
+        steps = LockStep(first.stage(cursor.stage), second.stage(cursor.stage), cursor)
+        beside = replace(cursor, position=steps.positions[1])
+        sentence_at(Step(second, beside))
+        self._shown.look(first, cursor)
+        self._shown.look(second, beside)
         settings_records(document)
 
     def refresh(self, moment: Moment) -> None:

@@ -1,10 +1,10 @@
 """Both runs of A | B in the view, where they are, and their difference."""
 
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 
 from app.pages.step.ab.lock_step import LockStep
-from app.pages.step.ab.pictures import differing_buffer, nothing, pictured
+from app.pages.step.ab.pictures import differing_buffer, nothing, pictured, seen_of
 from app.pages.step.ab.side_b import SideB
 from app.pages.step.grid_records import geometry_of
 from app.session.moment import Cursor, Moment, Step
@@ -35,7 +35,9 @@ class ShownRuns:
         """Name of the buffer that shows what an edit or a mistake does, where none was chosen; empty: the first one."""
         self.is_old = False
         """Whether B is the last run that went well, of a text that is another one by now."""
-        self._outlines = lru_cache(maxsize=4)(_outlines)
+        outlines = lru_cache(maxsize=4)(_outlines)
+        self.look = lru_cache(maxsize=4)(partial(seen_of, outlines))
+        """Returns what is seen of a run where it is: kept for both, and for those that may be shown next."""
 
     def fit(self, moment: Moment, second: Trace, b: SideB) -> None:
         """Find the buffer that shows what an edit or a mistake does."""
@@ -59,7 +61,7 @@ class ShownRuns:
         self._view.show_refusal((EDITED if b.edits else SHOWN_ONLY) if b.title else "")
         shown_steps: list[Step] = [moment] if second is None else [moment, second]
         wanted = self.buffers.get(moment.cursor.stage, "") or self._fitting
-        buffers, shown, pictures = pictured(sides, shown_steps, self._outlines, wanted, bool(b.printed))
+        buffers, shown, pictures = pictured(sides, shown_steps, self.look, wanted, bool(b.printed))
         self._view.buffer_box.show_buffers(buffers, shown)
         if self.is_old:
             pictures = pictures[0], replace(pictures[1], is_old=True), nothing(OLD)

@@ -13,9 +13,11 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QPushButton
 from pytestqt.qtbot import QtBot
 
+from app.background import is_working
 from app.files.user_folders import attempt_file
 from app.pages.exercises.page import ExercisesPage
 from app.pages.lessons.walk import LessonWalk
+from app.pages.step.ab.pictures import seen_of
 from app.pages.step.kept_look import show_state
 from app.window.main_window import MainWindow
 from core.stages.vertices import process_geometry
@@ -328,3 +330,27 @@ def test_a_step_beside_another_method_is_traced_in_the_background_and_painted_on
     assert comparing.second.trace.source.settings.fill == "scanline"
     assert not traced, "by the thread of the window"
     assert sorted(painted.values()) == [1, 1, 1]
+
+
+def test_what_was_traced_and_seen_ahead_of_a_step_is_shown(window: MainWindow, qtbot: QtBot) -> None:
+    page = window.page
+    page.lessons.keeps_attempts = False
+    page.lessons.open("the-middle", 4)
+    walk = settled(window, qtbot)
+    qtbot.waitUntil(lambda: not (is_working(walk.states) or page.inspector.ahead.is_working))
+    looked: list[FrameType] = []
+
+    def look(frame: FrameType, event: str, _: object) -> None:
+        if event == "call" and frame.f_code is seen_of.__code__:
+            looked.append(frame)
+
+    sys.setprofile(look)
+    try:
+        walk.next()
+        settled(window, qtbot)
+    finally:
+        sys.setprofile(None)
+    assert walk.number == 5
+    assert page.comparing.second is not None
+    assert page.comparing.second.trace.source.settings.interpolation == "affine-n"
+    assert looked == []

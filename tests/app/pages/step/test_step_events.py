@@ -13,17 +13,19 @@ from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core.records.steps import Level
 from lessons.scenes import make_scene
+from tests.app.pages.step.lesson_walks import settled
 
 pytestmark = pytest.mark.shared_window
 
 
 class EventCount(QObject):
-    """Counts layouts and paintings by widget."""
+    """Counts layouts, sizes and paintings by widget."""
 
     def __init__(self) -> None:
         super().__init__()
         self.layouts: Counter[str] = Counter()
         self.paints: Counter[QWidget] = Counter()
+        self.resizes: Counter[QWidget] = Counter()
         self.updates = 0
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
@@ -32,6 +34,8 @@ class EventCount(QObject):
                 self.layouts[type(watched).__name__] += 1
             elif event.type() == QEvent.Type.Paint:
                 self.paints[watched] += 1
+            elif event.type() == QEvent.Type.Resize:
+                self.resizes[watched] += 1
             elif event.type() == QEvent.Type.UpdateRequest and watched.isWindow():
                 self.updates += 1
         return False
@@ -131,3 +135,24 @@ def test_what_stages_are_traced_with_is_loaded_once_the_window_stands(
     qtbot.waitUntil(lambda: not window.page.inspector.ahead.is_working)
     assert load_stages.cache_info().currsize == 1
     assert not load_stages().is_alive()
+
+
+def test_a_step_of_a_lesson_gives_each_pane_its_room_once(window: MainWindow, qtbot: QtBot) -> None:
+    page = window.page
+    page.lessons.keeps_attempts = False
+    page.lessons.open("the-middle", 4)
+    walk = settled(window, qtbot)
+    page.settle()
+    area, before = page.main_area, page.main_area.width()
+    count = EventCount()
+    application = QApplication.instance()
+    application.installEventFilter(count)
+    walk.next()
+    settled(window, qtbot)
+    QApplication.processEvents()
+    application.removeEventFilter(count)
+    assert walk.number == 5
+    assert area.width() < before, "the Scene pane has been unfolded"
+    panes = (area, area.view_stack, page.side, walk.task.scroll, page.outline.widget())
+    assert [count.resizes[pane] for pane in panes] == [1] * len(panes)
+    assert {count.paints[grid] for grid in area.compare_view.grids} == {1}
