@@ -24,12 +24,7 @@ from lessons.os_errors import problem_text
 # The window, opened from the command line.
 
 
-BEFORE_QT = (
-    "app.files.open_any",
-    "core.fast_path.workers.band_workers",
-    "core.trace.tracers",
-    "core.pixel_history",
-)
+BEFORE_QT = ("app.files.open_any", "core.fast_path.workers.band_workers", "core.trace.tracers")
 """Modules that the window needs and that need no Qt. Once PySide6 is loaded, it reads the source of every module that
 is imported from then on, to look for its own features: some 0.1 ms for each of several hundred."""
 

@@ -28,7 +28,7 @@ def test_what_is_imported_before_qt_needs_no_qt_and_a_scene_opens_without_pillow
     )
     assert {*BEFORE_QT, "app.files.mesh_files", "app.files.mesh_formats.images"} <= imported
     assert not {"PySide6", "shiboken6", "pyqtgraph"} & imported
-    assert not {"PIL", "trimesh", "app.files.mesh_formats.gltf_buffers"} & imported
+    assert not {"PIL", "trimesh", "app.files.mesh_formats.gltf_buffers", "core.pixel_history"} & imported
 
 
 def test_no_garbage_is_looked_for_while_the_window_is_imported() -> None:
@@ -66,7 +66,14 @@ def test_neither_the_window_nor_a_colour_map_waits_for_a_typesetter_chart_or_oth
     assert not {"core.study.planner", "core.study.families", "core.study.record"} & imported
     # What is loaded in the background, which this window never gets, keeps the window waiting for nothing.
     assert (
-        not {"core.pixel_history", "core.shaders.linking", "core.lanes.nodes", "core.trees.levels"} & imported
+        not {
+            "core.pixel_history",
+            "numpy.ma",
+            "core.shaders.linking",
+            "core.lanes.nodes",
+            "core.trees.levels",
+        }
+        & imported
     )
 
 

@@ -72,7 +72,6 @@ def load_stages() -> Thread:
 def _load() -> None:
     load_tracers()
     load_subjects()
-    import_module("numpy.ma")  # np.unique asks for it when it is first called.
     import_module("app.session.listing_runs")  # It says whether a listing can be edited.
     import_module("app.pages.step.pixel_story")  # It is wanted for the first pixel that is clicked.
 
