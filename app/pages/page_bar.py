@@ -1,4 +1,4 @@
-"""The pages of the window and the bar that chooses among them; what stands for one that would show what is asked."""
+"""The pages of the window and the bar that chooses among them."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -9,12 +9,13 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QApplication, QSplitter, QStackedWidget, QTabBar, QWidget
 
 from app.background import Job, end_work
+from app.pages.cover import Cover
 from app.session.moment import Change
 from app.session.session import Session
 from core.explain.records import Formula
 from core.settings import Settings
 from widgets.basics.accessibility import GIVEN_BACK, first_stop
-from widgets.basics.controls import button_with_tip, column_layout, row_layout, text_label
+from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.message_bar import Progress
 
 if TYPE_CHECKING:
@@ -22,49 +23,6 @@ if TYPE_CHECKING:
     from core.edits.edit import Edit
     from core.scene import AnyScene
     from core.study.record import Opening
-
-
-# What stands for a page that would show what is asked about, with the ways back to the question.
-
-
-COVERED = {
-    "exercise": "Hidden while an exercise asks about this scene.",
-    "lesson": "Hidden while a lesson asks about this scene.",
-}
-"""What is said of a hidden page, by who asks."""
-
-
-class Cover(QWidget):
-    """Says why a page is hidden, and offers the question, or to leave the lesson that asks it."""
-
-    back_requested = Signal()
-    leave_requested = Signal()
-
-    def __init__(self, parent: QWidget) -> None:
-        super().__init__(parent)
-        self.said = text_label("", self, role="muted")
-        self.back_button = button_with_tip("Go back to the question", "Show what is asked", self)
-        self.leave_button = button_with_tip(
-            "Leave the lesson", "Close the lesson; what you have done of it is kept", self
-        )
-        self.back_button.clicked.connect(self.back_requested)
-        self.leave_button.clicked.connect(self.leave_requested)
-        self.setFocusProxy(self.back_button)
-        buttons = row_layout(spacing=8)
-        buttons.addStretch(1)
-        buttons.addWidget(self.back_button)
-        buttons.addWidget(self.leave_button)
-        buttons.addStretch(1)
-        column = column_layout(self, 12)
-        column.addStretch(1)
-        column.addWidget(self.said, 0, Qt.AlignmentFlag.AlignHCenter)
-        column.addLayout(buttons)
-        column.addStretch(1)
-
-    def show_asker(self, asker: str) -> None:
-        """Name who asks."""
-        self.said.setText(COVERED[asker])
-        self.leave_button.setVisible(asker == "lesson")
 
 
 # The pages of the window and the bar that chooses among them; a page is made when it is first shown.
@@ -110,6 +68,8 @@ def percent_done(fraction: float | None, doing: str) -> Progress:
 class Page(QWidget):
     """One page of the window. What it does not say otherwise, a page does not do."""
 
+    read: QWidget | None = None
+    """The column at its right that is read while a message is shown, which floats beside it; ``None``: none is."""
     message_sent = Signal(str)
     """Information for the user; nothing is wrong."""
     edit_refused = Signal(str)
@@ -283,6 +243,10 @@ class PageKind:
     """Whether it hides by itself what an exercise asks about."""
 
 
+LEAST_MESSAGE_PX = 320
+"""Room beside what is read from which on messages keep to it."""
+
+
 class Pages(QWidget):
     """The bar of pages, what stands under it for all of them, and the page that is shown."""
 
@@ -342,8 +306,13 @@ class Pages(QWidget):
         self._place_messages()
 
     def _place_messages(self) -> None:
+        """Let messages float right of the bar, beside what the page wants to be read meanwhile if both have room."""
         left = self.bar.geometry().right() + 12
-        width = max(self.width() - left - 8, 1)
+        page = self._made.get(self.current_name)
+        free = self.width() - left - 8
+        read = None if page is None else page.read
+        beside = free - (0 if read is None or read.isHidden() else read.width())
+        width = beside if beside >= LEAST_MESSAGE_PX else max(free, 1)
         self._messages.setGeometry(left, 0, width, self._messages.heightForWidth(width))
         self._messages.raise_()
 
@@ -424,6 +393,7 @@ class Pages(QWidget):
             self.cover.setFocus()
         elif self.isVisible():
             self.current.take_focus()
+        self._place_messages()
         self.page_changed.emit(self._kinds[index].name)
 
     @Slot(Change)

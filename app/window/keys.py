@@ -119,6 +119,12 @@ LOCAL_KEYS = (
             STEPPING,
         ),
         KeyAction(
+            "page_text",
+            ("PgDown", "PgUp"),
+            "While a listing or a shader is typed: a page down or up in it; presenting a lesson: the clicker’s",
+            EDITING,
+        ),
+        KeyAction(
             "read_texel",
             ("Shift+Left", "Shift+Right", "Shift+Up", "Shift+Down"),
             "In the texture: read the next texel",

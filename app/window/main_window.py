@@ -10,8 +10,9 @@ from app.background import ending_within
 from app.files.preferences import Preferences
 from app.files.user_folders import is_lesson_file
 from app.help.pane import HelpPane
+from app.pages.cover import COVERED
 from app.pages.lessons.presenter import BEGINNING, WAY_BACK
-from app.pages.page_bar import COVERED, Page, Pages
+from app.pages.page_bar import Page, Pages
 from app.pages.page_table import PAGE_KINDS, StepOpening, page_of_file
 from app.pages.step.page import StepPage
 from app.session.document import Document

@@ -352,8 +352,10 @@ class GridDisplay(QWidget):
         """Return the part of the widget that shows pixels."""
         if self._compact:
             return self.rect()
-        across, down = ruler_size(rows, current_theme(), ".5" * has_centers)
-        return self.rect().adjusted(across, 8, -8, -down)
+        theme = current_theme()
+        across, down = ruler_size(rows, theme, ".5" * has_centers)
+        margin = round(8 * theme.text_px / 13)  # That of a handle on the border, which grows with the text.
+        return self.rect().adjusted(across, margin, -margin, -down)
 
     def _is_inside(self, pixel: tuple[int, int]) -> bool:
         """Return whether a pixel belongs to the raster."""

@@ -10,7 +10,8 @@ from app.background import Job, Progress
 from app.files.drawn_pictures import read_drawn
 from app.files.file_access import DRAWN_ENDINGS
 from app.files.file_dialogs import ask_file
-from app.pages.page_bar import COVERED, Page, StepRequest
+from app.pages.cover import COVERED
+from app.pages.page_bar import Page, StepRequest
 from app.session.document import Document
 from app.session.moment import Change
 from app.session.session import Session

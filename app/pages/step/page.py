@@ -67,7 +67,7 @@ class StepPage(Page):
         self.grid, self.strip = self.main_area.grid, self.main_area.strip
         self.compare_view, self.ranges = self.main_area.compare_view, self.main_area.ranges
         self.column = column = InspectorColumn(self)
-        self.side = SideColumn(column, self.columns)
+        self.side = self.read = SideColumn(column, self.columns)
         self.card, self.sentence, self.formula = column.card, column.sentence, column.formula
         self.listing, self.variables, self.history = column.listing, column.variables, column.history
         self.prediction = column.prediction

@@ -8,7 +8,7 @@ from types import FrameType
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QPushButton
 from pytestqt.qtbot import QtBot
@@ -240,6 +240,23 @@ def test_what_a_step_asks_on_another_page_stays_in_sight_there(window: MainWindo
     lessons.close()
     window.pages.show_page("compare")
     assert task not in intros[0].text()
+
+
+@pytest.mark.parametrize("size", [(1280, 800), (1920, 1080)])
+def test_a_message_leaves_the_lesson_readable(
+    window: MainWindow, qtbot: QtBot, walk: LessonWalk, size: tuple[int, int]
+) -> None:
+    window.resize(*size)
+    settled(window, qtbot)
+    window.notices.warn(
+        "A warning that says more than a line has room for, as it names what was expected. " * 3
+    )
+    QApplication.processEvents()
+    message, lesson = (
+        QRect(w.mapTo(window, QPoint()), w.size()) for w in (window.messages, window.page.side)
+    )
+    assert message.width() > 300
+    assert not message.intersects(lesson)
 
 
 def test_no_step_stands_beside_a_whole_picture_and_a_listing_that_is_typed(
