@@ -261,10 +261,8 @@ def _settings_and_edits(document: Document) -> tuple[dict[str, str | int], list[
     """Return what is kept of settings, and of the listings that they or side B run edited, where they run."""
     if not document.edits and not document.settings.replacements:
         return settings_record(document.settings), []
-    from app.session.listing_runs import (
-        settings_as_edited,  # Few states need the evaluator.
-        without_printed,
-    )
+    from app.session.listing_runs import settings_as_edited  # Few states need the evaluator.
+    from app.session.printed_runs import without_printed
     from core.edits.edit import edits_of, without_edits
 
     other = document.settings
@@ -316,7 +314,7 @@ def _state(record: StateRecord, scene: AnyScene, mesh_path: str) -> State:
         path=mesh_path,
     )
     if record.look.printed:
-        from app.session.listing_runs import settings_as_printed  # Few states need the listings.
+        from app.session.printed_runs import settings_as_printed  # Few states need the listings.
 
         with in_field("look.printed"):
             mine, _ = settings_as_printed(record.look.printed, document)

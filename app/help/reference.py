@@ -6,7 +6,7 @@ from html import escape
 from typing import NamedTuple
 
 from app.help.pane import HelpPage, bullets, facts, link, linked, sentence
-from app.session.listing_runs import runnable
+from app.session.printed_runs import runnable
 from core import Settings, trace
 from core.explain.stage_texts import stage_card
 from core.families import Family

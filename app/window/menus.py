@@ -48,7 +48,7 @@ def scene_groups(
 
 def printed_group(document: Document) -> dict[str, list[Entry]]:
     """Return the listings as slides print them that run on the open scene, under one heading; empty: none does."""
-    from app.session.listing_runs import runnable_on  # Wanted by few, long after the start.
+    from app.session.printed_runs import runnable_on  # Wanted by few, long after the start.
 
     entries = [(f"{AS_PRINTED}{it.name}", f"{it.lecture}: {it.title}") for it in runnable_on(document)]
     return {"As printed, beside the right method": entries} if entries else {}
@@ -195,7 +195,7 @@ class Menus(QObject):
         """List the listings when they are first asked for: the window opens without them."""
         if self.printed_menu.actions():
             return
-        from app.session.listing_runs import runnable
+        from app.session.printed_runs import runnable
 
         for printed in runnable():
             made = self.printed_menu.addAction(f"{printed.lecture}: {printed.title}")

@@ -3,14 +3,16 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from core.edits.editable import EDITABLE, Part, refusal
-from core.edits.typed import Typed, with_called
 from core.families import suited
 from core.methods import Method, ReplacedName, table
 from core.records.listing import EditedListing, Listing, listing
 from core.settings import Settings, no_effect, with_method
+
+if TYPE_CHECKING:
+    from core.edits.typed import Typed
 
 
 @dataclass(frozen=True)
@@ -51,6 +53,8 @@ def original(part: str, of: str) -> Listing:
 
 @cache
 def _original(function: Callable[..., Any]) -> Listing:
+    from core.edits.typed import with_called  # With the language of listings, as all that runs an edit.
+
     return replace(listing(function), source=with_called(function))
 
 
@@ -73,8 +77,7 @@ def apply_edit(settings: Settings, edit: Edit) -> Settings:
         For settings that would never run it.
     """
     part, family = EDITABLE[edit.part], EDITABLE[edit.part].family
-    typed = Typed(_function(edit.part, edit.of), edit.text)
-    _check(part, typed)
+    _check(part, _typed(edit))
     others = [known for known in edits_of(settings) if known.part != edit.part]
     kept = [known for known in others if EDITABLE[known.part].family == family and known.of == edit.of]
     plain = with_method(settings, family, edit.of)
@@ -88,14 +91,19 @@ def apply_edit(settings: Settings, edit: Edit) -> Settings:
 
 
 @lru_cache(64)
-def _check(part: Part, typed: Typed) -> None:
+def _check(part: Part, typed: "Typed") -> None:
     """Raise `Problem` for a text that cannot run; one that can is checked once, as its loops may take long."""
     part.check(typed)
 
 
 def _edited(method: Method, edit: Edit, part: Part) -> Method:
-    typed = Typed(_function(edit.part, edit.of), edit.text)
-    return replace(part.made(method, typed), edits=(*method.edits, edit))
+    return replace(part.made(method, _typed(edit)), edits=(*method.edits, edit))
+
+
+def _typed(edit: Edit) -> "Typed":
+    from core.edits.typed import Typed
+
+    return Typed(_function(edit.part, edit.of), edit.text)
 
 
 def edits_of(settings: Settings) -> tuple[Edit, ...]:

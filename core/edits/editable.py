@@ -2,25 +2,22 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from core.coverage.edges import covers
 from core.depth.depth import depth_test
-from core.edits import coverage, fragments, framebuffer, lines
-from core.edits.typed import Typed
+from core.lazy_import import imported
 from core.methods import Method, table
 from core.settings import FAMILIES, Settings
 from core.shading.lighting import blinn_phong
+
+if TYPE_CHECKING:
+    from core.edits.typed import Typed
 
 
 def own_listing(method: Method) -> Callable[..., Any] | None:
     """Return the listing of a method."""
     return method.listing
-
-
-def never(settings: Settings, scene: Any) -> str:
-    """Settings and scene always run it."""
-    return ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,14 +29,13 @@ class Part:
     """What one is called in a sentence."""
     family: str
     """The setting that an edit stands in."""
-    check: Callable[[Typed], None]
-    """Raises `Problem` for a text that cannot run."""
-    made: Callable[[Method, Typed], Method]
-    """The method with a text in place of its listing."""
+    place: str
+    """What runs a text: file and word of ``core.edits.lines.check_line``, ``edited_line`` and, where there is one,
+    ``line_is_passed_over``. They come with the language of listings: they are imported with the first edit."""
     function: Callable[[Method], Callable[..., Any] | None] = own_listing
     """Of a method, what is edited."""
-    passed_over: Callable[[Settings, Any], str] = never
-    """Of settings and a scene, or None: why they would not run an edit, as a sentence; empty: they do."""
+    is_always_run: bool = False
+    """Whether settings that choose the method always run its listing."""
     refused: dict[str, str] = field(default_factory=dict)
     """By method: why its listing cannot be edited, as a sentence."""
 
@@ -47,6 +43,24 @@ class Part:
     def stage(self) -> str:
         """The stage that runs it."""
         return FAMILIES[self.family].stage
+
+    def check(self, typed: "Typed") -> None:
+        """Raise `Problem` for a text that cannot run."""
+        self._named("check_{}")(typed)
+
+    def made(self, method: Method, typed: "Typed") -> Method:
+        """Return the method with a text in place of its listing."""
+        made: Method = self._named("edited_{}")(method, typed)
+        return made
+
+    def passed_over(self, settings: Settings, scene: Any) -> str:
+        """Return why settings and a scene, or None, would not run an edit, as a sentence; empty: they do."""
+        return "" if self.is_always_run else str(self._named("{}_is_passed_over")(settings, scene))
+
+    def _named(self, form: str) -> Callable[..., Any]:
+        file, word = self.place.split(".")
+        found: Callable[..., Any] = imported(f"core.edits.{file}.{form.format(word)}")
+        return found
 
 
 def _test_of(method: Method) -> Callable[..., Any]:
@@ -69,43 +83,32 @@ _PLANAR = "It compares whole numbers that stand in integer planes, packed with t
 EDITABLE = {
     part.name: part
     for part in (
-        Part("line", "listing", "line", lines.check_line, lines.edited_line),
+        Part("line", "listing", "line", "lines.line", is_always_run=True),
         Part(
             "cull",
             "back-face test",
             "cull",
-            coverage.check_cull,
-            coverage.edited_cull,
-            passed_over=coverage.cull_is_passed_over,
+            "coverage.cull",
             refused={"none": "No face is dropped.", "back": _BY_AREA, "front": _BY_AREA},
         ),
         Part(
             "line_clipping",
             "listing",
             "line_clipping",
-            lines.check_clipper,
-            lines.edited_clipper,
+            "lines.clipper",
+            is_always_run=True,
             refused={
                 "none": "Nothing is clipped.",
                 "exact": "Its listing computes with fractions, which are not in the language of listings.",
             },
         ),
-        Part(
-            "fill_rule",
-            "rule",
-            "fill_rule",
-            coverage.check_fill_rule,
-            coverage.edited_fill_rule,
-            passed_over=coverage.fill_rule_is_passed_over,
-        ),
+        Part("fill_rule", "rule", "fill_rule", "coverage.fill_rule"),
         Part(
             "fill",
             "inside test",
             "fill",
-            coverage.check_test,
-            coverage.edited_test,
+            "coverage.test",
             function=_test_of,
-            passed_over=coverage.test_is_passed_over,
             refused={
                 "hierarchy": _BLOCKS,
                 "blocks": _BLOCKS,
@@ -115,59 +118,32 @@ EDITABLE = {
                 "scanline-lecture": _SPANS,
             },
         ),
-        Part(
-            "interpolation",
-            "listing",
-            "interpolation",
-            fragments.check_interpolation,
-            fragments.edited_interpolation,
-            passed_over=fragments.interpolation_is_passed_over,
-        ),
+        Part("interpolation", "listing", "interpolation", "fragments.interpolation"),
         Part(
             "shading",
             "light",
             "shading",
-            fragments.check_shading,
-            fragments.edited_shading,
+            "fragments.shading",
             function=_light_of,
-            passed_over=fragments.shading_is_passed_over,
             refused={"gouraud": _AT_VERTICES, "flat": _AT_VERTICES, "unlit": "Nothing is lit."},
         ),
-        Part(
-            "texture_filter",
-            "listing",
-            "texture_filter",
-            fragments.check_filter,
-            fragments.edited_filter,
-            passed_over=fragments.filter_is_passed_over,
-        ),
+        Part("texture_filter", "listing", "texture_filter", "fragments.filter"),
         Part(
             "depth_test",
             "depth test",
             "depth",
-            framebuffer.check_depth_test,
-            framebuffer.edited_depth_test,
+            "framebuffer.depth_test",
             function=_depth_test_of,
-            passed_over=framebuffer.depth_test_is_passed_over,
             refused={"fixed-38": _PLANAR},
         ),
         Part(
             "depth",
             "rounding",
             "depth",
-            framebuffer.check_depth_format,
-            framebuffer.edited_depth_format,
-            passed_over=framebuffer.depth_format_is_passed_over,
+            "framebuffer.depth_format",
             refused={"fixed-38": _PLANAR},
         ),
-        Part(
-            "blend",
-            "listing",
-            "blend",
-            framebuffer.check_blend,
-            framebuffer.edited_blend,
-            passed_over=framebuffer.blend_is_passed_over,
-        ),
+        Part("blend", "listing", "blend", "framebuffer.blend"),
     )
 }
 """By name, which the command line takes before ``=``."""

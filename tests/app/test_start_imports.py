@@ -89,3 +89,9 @@ def test_opening_a_lesson_waits_for_no_study_and_for_no_exercise_that_is_not_ask
     )
     assert "app.pages.lessons.walk" in imported
     assert not {"lessons.course.validation", "core.study.families", "lessons.exercises.catalogue"} & imported
+
+
+def test_what_is_loaded_behind_an_open_window_leaves_out_the_language_and_the_lectures_listings() -> None:
+    imported = imported_by("import app.pages.step.inspector_presenter as later; later._load()")
+    assert {"app.session.listing_runs", "core.pixel_history"} <= imported
+    assert not {"core.lanes.program", "core.edits.typed", "lessons.lectures.catalogue", "numpy.ma"} & imported

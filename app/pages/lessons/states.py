@@ -13,8 +13,8 @@ from app.background import Job
 from app.pages.exercises.answers import numbers_of
 from app.pages.lessons.question import LessonQuestion
 from app.session.document import Document, TeachingRaster
-from app.session.listing_runs import settings_as_printed
 from app.session.moment import Change, Cursor, Moment, Step, cursor_at
+from app.session.printed_runs import settings_as_printed
 from app.session.session import Session
 from app.session.tracing import trace_now
 from core import Settings, Trace

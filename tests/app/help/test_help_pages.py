@@ -7,7 +7,7 @@ import pytest
 
 from app.help.library import GUIDES, find_page, guide_page, occurrences, page, places
 from app.help.reference import listings_of, slides
-from app.session.listing_runs import runnable
+from app.session.printed_runs import runnable
 from app.views.stage_views import VIEWS
 from app.window.actions import ACTIONS
 from core.methods import table

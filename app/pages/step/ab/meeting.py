@@ -88,7 +88,7 @@ class Meeting(QObject):
 
     def go_to_other_pixel(self) -> None:
         """Put both runs at the first step that draws another pixel, or else at their first divergence."""
-        from app.session.listing_runs import first_other_pixel
+        from app.session.printed_runs import first_other_pixel
 
         moment, second = self._comparing.runs
         assert second is not None

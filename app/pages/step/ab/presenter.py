@@ -133,7 +133,7 @@ class ComparePresenter(QObject):
         not run in the pipeline, or not on this scene.
         """
         # Wanted by few, long after the start.
-        from app.session.listing_runs import settings_as_printed, title_as_printed
+        from app.session.printed_runs import settings_as_printed, title_as_printed
 
         mine, other = settings_as_printed(name, self._session.latest)
         if mine != self._session.latest.settings:

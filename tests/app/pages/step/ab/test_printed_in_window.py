@@ -12,7 +12,7 @@ from app.files.state_files import State, load_state, save_state
 from app.files.state_scenes import StateFileError
 from app.help.reference import method_page
 from app.pages.step.kept_look import look_of, show_look
-from app.session.listing_runs import runnable
+from app.session.printed_runs import runnable
 from app.window.main_window import MainWindow
 from core.methods import table
 
