@@ -35,6 +35,8 @@ _STROKES = {
     CellMark.DOUBLE: (((-0.45, -1), (-0.45, 1)), ((0.45, -1), (0.45, 1))),
 }
 """Glyphs drawn as lines: the corners of each, x to the right and y down, 1 is the glyph's reach."""
+_NUMBER_CELL = 24.0
+"""Side of a cell from which small glyphs leave its middle to a number."""
 _COUNT_CELL = 18.0
 """Side of a cell from which counts are written as numbers."""
 _LABEL_CELL = 8.0
@@ -176,8 +178,9 @@ def _paint_glyphs(painter: QPainter, placement: GridPlacement, overlay: MaskOver
                 painter.setPen(pen)
                 painter.drawEllipse(middle, size, size)
         elif overlay.mark in _STROKES:
-            place = _glyph_place(rect) if overlay.mark is CellMark.DEPTH_FAILED else middle
-            reach = size * (0.55 if overlay.mark is CellMark.DEPTH_FAILED else 0.9)
+            place, reach = (
+                corner_glyph(rect) if overlay.mark is CellMark.DEPTH_FAILED else (middle, size * 0.9)
+            )
             lines = [
                 QPolygonF([place + QPointF(reach * x, reach * y) for x, y in stroke])
                 for stroke in _STROKES[overlay.mark]
@@ -190,21 +193,21 @@ def _paint_glyphs(painter: QPainter, placement: GridPlacement, overlay: MaskOver
             painter.setPen(QPen(halo, 1.0))
             painter.setBrush(color)
             painter.drawPolygon(
-                _arrowhead(rect, size) if overlay.mark is CellMark.DEPTH_PASSED else _corner(rect)
+                _arrowhead(*corner_glyph(rect)) if overlay.mark is CellMark.DEPTH_PASSED else _corner(rect)
             )
     painter.restore()
 
 
-def _glyph_place(rect: QRectF) -> QPointF:
-    """Return where a small glyph stands in a cell: the middle, or above the number of a large cell."""
-    if rect.height() < 40:
-        return rect.center()
-    return QPointF(rect.center().x(), rect.top() + min(rect.height() * 0.2, 14.0))
+def corner_glyph(rect: QRectF) -> tuple[QPointF, float]:
+    """Return middle and reach of a glyph beside a number: in the upper left corner, or the middle of a small cell."""
+    if rect.height() < _NUMBER_CELL:
+        return rect.center(), rect.height() * 0.165
+    reach = min(rect.height() * 0.11, 7.7)
+    return rect.topLeft() + QPointF(reach + 4, reach + 4), reach
 
 
-def _arrowhead(rect: QRectF, size: float) -> QPolygonF:
+def _arrowhead(place: QPointF, reach: float) -> QPolygonF:
     """Return a triangle that points up."""
-    place, reach = _glyph_place(rect), size * 0.65
     return QPolygonF(
         [
             place + QPointF(0, -reach),

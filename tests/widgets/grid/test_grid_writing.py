@@ -2,20 +2,21 @@
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, QRectF, Qt
-from PySide6.QtGui import QGuiApplication
+from PySide6.QtCore import QPoint, QPointF, QRect, QRectF, Qt
+from PySide6.QtGui import QFontMetricsF, QGuiApplication
 from PySide6.QtTest import QTest
 
 from tests.widgets.grid.pixel_grids import LEFT, picture, shown_grid, wheel
-from widgets.basics.theme import current_theme
+from widgets.basics.theme import LIGHT, PRESENTER, Theme, current_theme
 from widgets.grid.geometry import GridGeometry
 from widgets.grid.layers import GridBuffer
 from widgets.grid.marks import StepMark
 from widgets.grid.names import name_boxes
+from widgets.grid.overlay_paint import corner_glyph
 from widgets.grid.paint import number_boxes, number_writing
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.rulers import ruler_labels
-from widgets.grid.view import FIT, GridView
+from widgets.grid.view import FIT, GridView, place
 
 
 @pytest.fixture
@@ -228,3 +229,19 @@ def test_a_first_whole_number_leaves_no_centre_in_other_cells(qtbot) -> None:
         widget.show_buffer(GridBuffer("z", after, known=is_known, range=(0.0, 7.0)))
         pictures.append(picture(widget))
     assert pictures[0] == pictures[1]
+
+
+@pytest.mark.parametrize("cell", [24, 30, 38, 46, 60, 90, 140])
+@pytest.mark.parametrize("theme", [LIGHT, PRESENTER])
+@pytest.mark.usefixtures("qapp")
+def test_the_cross_of_a_failed_depth_touches_no_digit(cell: int, theme: Theme) -> None:
+    placement = place(1, 1, QRect(0, 0, cell + 2, cell + 2), GridView())
+    for value in (5.0, 12.0, 0.8974):
+        writing = number_writing(placement, GridBuffer("depth", np.full((1, 1), value)), theme)
+        if writing is None:
+            continue
+        middle, reach = corner_glyph(placement.cells_rect(0, 0))
+        cross = QRectF(middle, middle).adjusted(-reach, -reach, reach, reach)
+        ink = QFontMetricsF(writing.font).tightBoundingRect("0" * min(len(f"{value:g}"), writing.width))
+        ink.moveCenter(placement.cells_rect(0, 0).center() + QPointF(0, writing.top + writing.height / 2))
+        assert not cross.intersects(ink), value
