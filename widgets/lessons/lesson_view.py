@@ -347,12 +347,19 @@ class LessonView(QWidget):
         self._show_next_press()
 
     def _show_next_press(self) -> None:
-        """Show Reveal where there is something to reveal; a clicker presses it before Next."""
+        """Show Reveal where there is something to reveal; a clicker presses it before Next.
+
+        Where a task is done on another page, what leads there comes before Next.
+        """
         can_reveal = self._is_asking or (self._has_solution and self._is_presenting)
         is_next = can_reveal and self._is_presenting
         self.reveal_button.setVisible(can_reveal)
+        is_there = self._feedback is None and self._record is not None and bool(self._record.task)
+        leads_on = is_there and bool(self._link_buttons) and not self._is_presenting
+        for button in self._link_buttons:
+            set_role(button, "primary" if leads_on else "")
         set_role(self.reveal_button, "primary" if is_next else "")
-        set_role(self.next_button, "" if is_next else "primary")
+        set_role(self.next_button, "" if is_next or leads_on else "primary")
 
     @Slot(str)
     def show_note(self, text: str) -> None:
@@ -363,6 +370,7 @@ class LessonView(QWidget):
     def show_feedback(self, feedback: LessonFeedback | None) -> None:
         """Show what came of the task, and say it; ``None``: nothing yet."""
         self._feedback = feedback
+        self._show_next_press()
         if feedback is not None:
             self._keep_height()
         # A task is judged while it is done: what is said must not move a listing that is typed below.

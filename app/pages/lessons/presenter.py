@@ -98,7 +98,8 @@ class LessonPresenter(QObject):
             return ""
         if (walk.step.show or "").split("/")[0] != page:
             return ""
-        return f"The lesson “{walk.lesson.title}” asks: {walk.step.task} Go on with it on the Step page."
+        asked = " ".join((walk.step.text + " " + walk.step.task).split())
+        return f"The lesson “{walk.lesson.title}”: {asked} Go on with it on the Step page."
 
     @property
     def is_before_a_class(self) -> bool:

@@ -231,7 +231,11 @@ def test_the_exercise_that_closes_a_lesson_leads_back_to_it(
 def test_what_a_step_asks_on_another_page_stays_in_sight_there(window: MainWindow, qtbot: QtBot) -> None:
     lessons = window.page.lessons
     lessons.open("row-by-row", 5)
-    task = settled(window, qtbot).step.task
+    walk = settled(window, qtbot)
+    task, link = walk.step.task, walk.view.findChild(QPushButton, "compare/visibility")
+    assert [button.property("role") for button in (link, walk.view.next_button)] == ["primary", ""]
+    link.click()
+    assert [button.property("role") for button in (link, walk.view.next_button)] == ["", "primary"]
     intros = []
     for name in ("compare", "stability"):
         window.pages.show_page(name)
