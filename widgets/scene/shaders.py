@@ -251,8 +251,10 @@ class ShaderPane(QWidget):
         self.show_program(None, is_possible=True)
 
     def show_source(self, stage: str) -> None:
-        """Bring a shader's tab to the front."""
+        """Bring a shader's tab to the front; undo leads back to no text before it."""
         self._tabs.setCurrentWidget(self._editors[stage])
+        for editor in self._editors.values():
+            editor.document().clearUndoRedoStacks()
 
     @property
     def message(self) -> str:

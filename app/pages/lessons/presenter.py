@@ -98,7 +98,7 @@ class LessonPresenter(QObject):
             return ""
         if (walk.step.show or "").split("/")[0] != page:
             return ""
-        asked = " ".join((walk.step.text + " " + walk.step.task).split())
+        asked = " ".join(f"{walk.step.text} {walk.step.task or ''}".split())
         return f"The lesson “{walk.lesson.title}”: {asked} Go on with it on the Step page."
 
     @property

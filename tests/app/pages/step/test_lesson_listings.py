@@ -146,3 +146,15 @@ def test_a_lesson_asks_for_a_listing(window: MainWindow, qtbot: QtBot, tmp_path:
     assert "From (7, 6) to (5, 5): yours (5, 5), (6, 6), (7, 6); right (5, 5), (6, 5), (7, 6)." in said
     assert answered(walk, qtbot, right.replace("x <= x1", "not x > x1")).startswith("Right.")
     assert [attempt.score for attempt in kept(walk, window, qtbot)] == [0, 1]
+
+
+def test_undo_in_a_shader_leads_to_no_text_before_the_step(window: MainWindow, qtbot: QtBot) -> None:
+    window.page.lessons.open("write-a-shader", 1)
+    walk = settled(window, qtbot)
+    for number in (2, 3, 4):
+        walk.next()
+        assert settled(window, qtbot).number == number
+        editor = window.page.shader_pane.editor("vertex")
+        given = editor.toPlainText()
+        editor.undo()
+        assert (editor.toPlainText(), walk.task.is_unsolved) == (given, True)
