@@ -210,20 +210,22 @@ def run_window(target: str | None = None, allows_outside: bool = False) -> int:
     application.commitDataRequest.connect(window.memory.autosave.ask)
     signals = EndSignals(window)
     signals.received.connect(window.end_by_signal)
+    sys.excepthook = window.notices.report
+    # Over a restored scene only where it is wanted.
+    is_restored = first.opened.state is not None or first.message is not None
+    shows_start = preferences.shows_start or not is_restored
+    if target is None and shows_start:
+        window.pages.show_page("start")  # Before the window is there: no other page is laid out for it.
     window.show()
     window.setFocus(Qt.FocusReason.OtherFocusReason)
-    sys.excepthook = window.notices.report
     if warning:
         window.notices.warn(warning)
     if first.message is not None:
         window.offer(first.message, first.offered)
-    # Over a restored scene only where it is wanted.
-    is_restored = first.opened.state is not None or first.message is not None
-    shows_start = preferences.shows_start or not is_restored
     if target is not None:
         window.open_first(target, allows_outside, shows_start)
     elif shows_start:
-        window.pages.show_page("start")
+        window.pages.current.take_focus()
     code = application.exec()
     sys.excepthook = sys.__excepthook__
     window.close_anyway()

@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from app.cli.commands import BEFORE_QT
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -95,3 +97,19 @@ def test_what_is_loaded_behind_an_open_window_leaves_out_the_language_and_the_le
     imported = imported_by("import app.pages.step.inspector_presenter as later; later._load()")
     assert {"app.session.listing_runs", "core.pixel_history"} <= imported
     assert not {"core.lanes.program", "core.edits.typed", "lessons.lectures.catalogue", "numpy.ma"} & imported
+
+
+def test_a_window_that_begins_on_the_start_page_lays_out_no_other(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("RASTERSCOPE_CONFIG", str(tmp_path))
+    said = imported_by(
+        "import app.window.start as start; from PySide6.QtWidgets import QApplication; "
+        "from app.pages.page_bar import Page; shown = Page.showEvent; "
+        "Page.showEvent = lambda page, event: (print('shown:', type(page).__name__), shown(page, event)); "
+        "QApplication.exec = lambda *_: print(*(type(window.focusWidget()).__name__ "
+        "for window in QApplication.topLevelWidgets() if window.isVisible())) or 0; "
+        "start.run_window()"
+    )
+    assert {"StartPage", "QPushButton"} <= said
+    assert "StepPage" not in said
