@@ -82,7 +82,7 @@ def load_preferences() -> tuple[Preferences, str]:
         path = preferences_folder() / FILE_NAME
         content = read_input(path, SIZE_LIMIT)
     except FileNotFoundError:
-        return Preferences(), ""
+        return Preferences.model_construct(), ""  # No check is prepared where nothing is to be checked.
     except OSError as problem:
         reason = os_error_reason(problem)
         return Preferences(), f"The preferences cannot be read: {reason}. The defaults are used."

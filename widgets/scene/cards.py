@@ -137,7 +137,6 @@ class SceneCards(QWidget):
                 card.installEventFilter(self)
                 flow.addWidget(card)
             self.cards += cards
-        self._fit()
         theme_notifier().theme_changed.connect(self._fit)
 
     def resizeEvent(self, event: QResizeEvent) -> None:

@@ -104,7 +104,7 @@ class Breaks:
     """The breakpoints of the open scene."""
 
     def __init__(self, record: Breakpoints | None = None) -> None:
-        record = record or Breakpoints()
+        record = record or Breakpoints.model_construct()
         self.pixels: set[tuple[int, int]] = set(record.pixels)
         self.lines: set[tuple[str, int]] = set(record.lines)
         """Name of the listing's function and line."""
@@ -127,7 +127,9 @@ class Breaks:
 
     def record(self) -> Breakpoints:
         """Return them as files keep them."""
-        return Breakpoints(pixels=sorted(self.pixels), lines=sorted(self.lines), condition=self.condition)
+        return Breakpoints.model_construct(
+            pixels=sorted(self.pixels), lines=sorted(self.lines), condition=self.condition
+        )
 
     def positions(self, trace: StageTrace) -> Integers:
         """Return the positions, rising, just after a step that a breakpoint stands on."""
