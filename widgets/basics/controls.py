@@ -4,7 +4,7 @@ import re
 from bisect import bisect_left
 from typing import TypeVar
 
-from PySide6.QtCore import QPoint, QRect, QSize, Qt
+from PySide6.QtCore import QEvent, QPoint, QRect, QSize, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QTextDocumentFragment, QTextLayout, QWheelEvent
 from PySide6.QtWidgets import (
     QAbstractButton,
@@ -97,6 +97,32 @@ def wrap_text(button: QAbstractButton, text: str, width: int) -> None:
 # Labels: text that is cut to its width, text that scrolls, and a role that the style sheet knows.
 
 
+class WrappedLabel(QLabel):
+    """A text in as many lines as it needs; layouts ask many times how high it is, and it is measured once."""
+
+    def __init__(self, text: str, parent: QWidget | None) -> None:
+        self._heights: dict[tuple[int, int], int] = {}
+        """By width and least height, of this text in this type."""
+        super().__init__(text, parent)
+
+    def setText(self, text: str) -> None:
+        """Show another text."""
+        self._heights.clear()
+        super().setText(text)
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Measure another type anew."""
+        self._heights.clear()
+        super().changeEvent(event)
+
+    def heightForWidth(self, width: int) -> int:
+        """Return the height of the text in a width; Qt calls this."""
+        asked = width, self.minimumHeight()
+        if asked not in self._heights:
+            self._heights[asked] = super().heightForWidth(width)
+        return self._heights[asked]
+
+
 def text_label(
     text: str,
     parent: QWidget | None,
@@ -107,7 +133,8 @@ def text_label(
     is_selectable: bool = False,
 ) -> QLabel:
     """Return a text: its role in the style sheet, what it is for who hears it, and what may be done with it."""
-    label = QLabel(text, parent) if parent is not None else QLabel(text)
+    # What is selected is laid out as it is measured: a text that was not would be painted twice.
+    label = WrappedLabel(text, parent) if wraps and not is_selectable else QLabel(text, parent)
     label.setWordWrap(wraps)
     if role:
         label.setProperty("role", role)

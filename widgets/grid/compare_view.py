@@ -298,8 +298,10 @@ class CompareView(QWidget):
 
     def show_family(self, family: str) -> None:
         """Bring a family to the choice."""
-        self.family_box.setCurrentIndex(max(self.family_box.findData(family), 0))
-        self._show_values()
+        index = max(self.family_box.findData(family), 0)
+        if index != self.family_box.currentIndex():
+            self.family_box.setCurrentIndex(index)
+            self._show_values()
 
     def show_sides(self, *sides: Side) -> None:
         """Show A, B and their difference."""

@@ -79,14 +79,19 @@ class LessonScroll(QScrollArea):
         self._bar.place.updateGeometry()
         _invalidate(self._content.layout())
 
-    def take_room(self, wanted: int, most: int) -> None:
-        """Be as high as the content needs, see `height_for`, and at ``most`` so high: then it scrolls."""
+    def take_room(self, width: int, wanted: int, most: int) -> None:
+        """Be as high as the content needs in a width, see `height_for`, and at ``most`` so high: then it scrolls."""
         # Not as Qt sees fit: where a bar makes the text higher, it would keep the bar for that.
         policies = Qt.ScrollBarPolicy
         self.setVerticalScrollBarPolicy(
             policies.ScrollBarAlwaysOff if wanted <= most else policies.ScrollBarAsNeeded
         )
-        self.setFixedHeight(min(wanted, most))
+        # Both at once: a text that is wrapped otherwise is laid out again.
+        height = min(wanted, most)
+        self.setMinimumHeight(min(height, self.height()))
+        self.setMaximumHeight(max(height, self.height()))
+        self.resize(width, height)
+        self.setFixedHeight(height)
 
     @Slot()
     def _float(self) -> None:

@@ -2,9 +2,10 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import ceil
 
-from PySide6.QtCore import QSize, Qt, Signal, Slot
-from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
+from PySide6.QtCore import QRect, QSize, Qt, Signal, Slot
+from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import (
     QApplication,
     QCheckBox,
@@ -59,6 +60,10 @@ class OutlineGroup:
     is_open: bool = True
 
 
+INDENT = 10
+"""Of the name of a row, in pixels: a vertex has its bar there."""
+
+
 class _RowLabel(QLabel):
     """The name of a row; a click selects it. A vertex has its colour as a bar."""
 
@@ -67,7 +72,7 @@ class _RowLabel(QLabel):
         self._row = row
         self._outline = outline
         self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self.setIndent(10)
+        self.setIndent(INDENT)
         KeyClaim(self, (Qt.Key.Key_Space, Qt.Key.Key_Return, Qt.Key.Key_Enter))
         self.setAccessibleName(row.label)
         self.setToolTip(row.note or row.label)
@@ -90,8 +95,7 @@ class _RowLabel(QLabel):
             super().keyPressEvent(event)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        theme = current_theme()
-        painter = QPainter(self)
+        theme, painter = current_theme(), QPainter(self)
         is_selected = self._outline.selected_path() == self._row.path
         if is_selected:
             painter.fillRect(self.rect(), QColor(theme.selection))
@@ -104,8 +108,13 @@ class _RowLabel(QLabel):
         if self.hasFocus():
             painter.setPen(QPen(QColor(theme.focus), 2))
             painter.drawRect(self.rect().adjusted(1, 1, -1, -1))
-        painter.end()
-        super().paintEvent(event)
+        # Qt itself would paint a text that can take the focus twice when it is shown.
+        height = ceil(QFontMetricsF(self.font()).height())
+        place = QRect(INDENT, (self.height() - height) // 2, self.width() - INDENT, height)
+        flags = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop)
+        self.style().drawItemText(
+            painter, place, flags, self.palette(), self.isEnabled(), self.text(), self.foregroundRole()
+        )
 
 
 class SceneOutline(QScrollArea):

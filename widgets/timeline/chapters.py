@@ -8,6 +8,7 @@ from functools import lru_cache
 from PySide6.QtCore import QEvent, QPoint, QRect, QRectF, QSize, Qt, Signal, Slot
 from PySide6.QtGui import (
     QColor,
+    QEnterEvent,
     QFont,
     QFontMetrics,
     QKeyEvent,
@@ -89,7 +90,6 @@ class ChapterButton(QAbstractButton):
         self._chapter = chapter
         self._spelling = Spelling.WORDS
         self._share_done = 0.0
-        self._is_under_mouse = False
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.show_chapter(chapter)
@@ -138,12 +138,15 @@ class ChapterButton(QAbstractButton):
         """As tall as wanted, and wide enough to be hit."""
         return QSize(24, self.sizeHint().height())
 
-    def event(self, event: QEvent) -> bool:
+    def enterEvent(self, event: QEnterEvent) -> None:
         """Light up under the mouse."""
-        if event.type() in (QEvent.Type.Enter, QEvent.Type.Leave):
-            self._is_under_mouse = event.type() == QEvent.Type.Enter
-            self.update()
-        return super().event(event)
+        super().enterEvent(event)
+        self.update()
+
+    def leaveEvent(self, event: QEvent) -> None:
+        """Be as before."""
+        super().leaveEvent(event)
+        self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw ground and state, the two lines and the strip; or only the strip, where it alone has changed."""
@@ -189,7 +192,7 @@ class ChapterButton(QAbstractButton):
         ground = QColor(theme.window if state is ChapterState.SKIPPED else theme.panel)
         if state is ChapterState.CURRENT:
             ground = blended(theme.accent, theme.panel, 0.12)
-        elif self.isDown() or self._is_under_mouse:
+        elif self.isDown() or self.underMouse():
             ground = QColor(theme.selection)
         painter.fillRect(box, ground)
         if state is ChapterState.CURRENT:

@@ -4,13 +4,13 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt, QTimer, Signal, Slot
 from PySide6.QtGui import QAccessible, QResizeEvent
-from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QSizePolicy, QTabWidget, QWidget
+from PySide6.QtWidgets import QFrame, QScrollArea, QSizePolicy, QTabWidget, QWidget
 
 from app.session.moment import Cursor, Moment
 from core.explain.records import Formula
 from core.stages.declared import stage_of
 from widgets.basics.accessibility import announce
-from widgets.basics.controls import column_layout
+from widgets.basics.controls import column_layout, text_label
 from widgets.basics.panes import PaneSplitter
 from widgets.basics.theme import current_theme, text_font, theme_notifier
 from widgets.grid.pixel_grid import PixelGrid
@@ -63,13 +63,11 @@ class InspectorColumn(QTabWidget):
         self.variables, self.history = VariablesView(self), PixelHistory(self)
         self.prediction = PredictionView(self)
         self.prediction.hide()
-        self.sentence = QLabel(self)
-        self.sentence.setWordWrap(True)
-        self.sentence.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self.sentence.setProperty("role", "sentence")
+        self.sentence = text_label(
+            "", self, "sentence", name="What the step did", wraps=True, is_selectable=True
+        )
         self.sentence.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
         self.sentence.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
-        self.sentence.setAccessibleDescription("What the step did")
         self._step_pane = QWidget(self)
         layout = column_layout(self._step_pane, 4)
         for widget in (self.sentence, self.formula):
@@ -381,8 +379,12 @@ class SideColumn(QWidget):
         most = self.height()
         if is_inspected and not has_room:
             most = max(most - least, round(LESSON_PART * most))
-        self._lesson.take_room(wanted, most)
-        self._below.setVisible(is_inspected)  # At once in its place.
+        self._lesson.take_room(self.width(), wanted, most)
+        if is_inspected and self._below.isHidden():
+            # At once in its place.
+            top = min(wanted, most) + self._layout.spacing()
+            self._below.setGeometry(0, top, self.width(), self.height() - top)
+        self._below.setVisible(is_inspected)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Divide another height."""

@@ -137,7 +137,9 @@ def test_what_stages_are_traced_with_is_loaded_once_the_window_stands(
     assert not load_stages().is_alive()
 
 
-def test_a_step_of_a_lesson_gives_each_pane_its_room_once(window: MainWindow, qtbot: QtBot) -> None:
+def test_a_step_of_a_lesson_gives_each_pane_its_room_and_paints_it_once(
+    window: MainWindow, qtbot: QtBot
+) -> None:
     page = window.page
     page.lessons.keeps_attempts = False
     page.lessons.open("the-middle", 4)
@@ -155,4 +157,5 @@ def test_a_step_of_a_lesson_gives_each_pane_its_room_once(window: MainWindow, qt
     assert area.width() < before, "the Scene pane has been unfolded"
     panes = (area, area.view_stack, page.side, walk.task.scroll, page.outline.widget())
     assert [count.resizes[pane] for pane in panes] == [1] * len(panes)
+    assert {str(widget): times for widget, times in count.paints.items() if times > 1} == {}
     assert {count.paints[grid] for grid in area.compare_view.grids} == {1}
