@@ -20,6 +20,11 @@ def is_everything() -> bool:
     return settings.get_current_profile_name() == "all"
 
 
+def every_nth(cases: Iterable[First], step: int) -> list[First]:
+    """Return every ``step``-th case, from the first on; with --all, all."""
+    return list(cases)[:: 1 if is_everything() else step]
+
+
 def in_turn(first: Iterable[First], second: Iterable[Second]) -> list[tuple[First, Second]]:
     """Return pairs that have every value of both at least once; with --all, all pairs."""
     first, second = list(first), list(second)

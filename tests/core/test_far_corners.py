@@ -15,6 +15,7 @@ from core.lines.line_method import STEP_LIMIT
 from core.methods import table
 from tests.core.strategies import clip_of_window
 from tests.core.trace.trace_cases import CHOICES, EACH_METHOD, name_of
+from tests.covering import every_nth
 
 SIZE = (7, 12)
 DISTANCES = (6e4, 1e6, 1e15)
@@ -97,7 +98,7 @@ def check(choice: dict[str, Any], run: Callable[[Settings], Any]) -> None:
 
 def test_pictures():
     lines = ({"polygon_mode": "wireframe", "line": line} for line in table.names("line"))
-    for choice in [*EACH_METHOD, *lines]:
+    for choice in every_nth([*EACH_METHOD, *lines], 3):
         check(choice, lambda chosen: render(FAR, chosen))
 
 

@@ -49,7 +49,7 @@ def test_a_short_monkey(
     window: MainWindow, qtbot: QtBot, files: list[Path], capfd: pytest.CaptureFixture[str]
 ) -> None:
     monkey = Monkey(window, SEED, files)
-    for _ in range(40):
+    for _ in range(20):
         monkey.step()
         qtbot.waitUntil(lambda: not is_busy(window), timeout=60000)
     assert capfd.readouterr().err == ""

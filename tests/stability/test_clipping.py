@@ -6,12 +6,13 @@ from core import Settings, render
 from core.clipping.measured import CLIPPINGS, signs_of_w
 from core.study.record import Outcome
 from core.study.stability import experiments
+from tests.covering import every_nth
 from tests.stability.maps import is_right_everywhere, outcomes, wrong_at_random
 
 CLIP_FIRST = ("clipping=sutherland-hodgman-lecture", "clipping=sutherland-hodgman", "clipping=homogeneous")
 
 
-@pytest.mark.parametrize("method", ["clipping=project-first", "clipping=after-divide"])
+@pytest.mark.parametrize("method", every_nth(["clipping=project-first", "clipping=after-divide"], 2))
 def test_projecting_first_needs_all_w_above_0(method: str) -> None:
     for (second, third), outcome in outcomes("signs-of-w", method, every=2).items():
         if second > 0 and third > 0:
@@ -37,6 +38,7 @@ def test_clipping_first_holds_near_the_eye(method: str) -> None:
     assert is_right_everywhere("clip-after-divide", method, every=3)
 
 
+@pytest.mark.slow
 def test_a_shared_edge_clipped_in_order_falls_apart() -> None:
     found = outcomes("clip-order", "clipping=sutherland-hodgman-lecture")
     assert {Outcome.HOLE, Outcome.DOUBLE_HIT} <= set(found.values())

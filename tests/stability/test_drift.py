@@ -8,6 +8,7 @@ from core.coverage.measured_sums import long_line
 from core.study.record import Outcome
 from core.study.stability import experiments
 from core.trace import trace
+from tests.covering import every_nth
 from tests.stability.maps import is_right_everywhere, outcomes
 
 LONG = (4096.0, 8192.0)
@@ -18,6 +19,7 @@ STEADY = (
 )
 
 
+@pytest.mark.slow
 def test_sums_in_float32_drift_where_values_in_float32_do_not() -> None:
     experiment = experiments.get("incremental-drift")
     rises = experiment.info.axes[1].values
@@ -52,7 +54,9 @@ def test_slopes_added_in_float32_drift_over_thousands_of_columns() -> None:
     assert sum(outcome != Outcome.RIGHT for (length, _), outcome in found.items() if length > 4000) > 4
 
 
-@pytest.mark.parametrize("method", ["line=bresenham", "line=midpoint", "line=dda", "line=bresenham-float"])
+@pytest.mark.parametrize(
+    "method", every_nth(["line=bresenham", "line=midpoint", "line=dda", "line=bresenham-float"], 2)
+)
 def test_other_lines_take_a_nearest_pixel(method: str) -> None:
     assert is_right_everywhere("line-drift", method, every=4)
 
@@ -69,6 +73,7 @@ def test_a_drifted_line_opens_where_it_goes_wrong() -> None:
     assert [column, row] not in drawn.tolist()
 
 
+@pytest.mark.slow
 def test_added_inverse_slopes_round_another_way_and_closed_forms_do_not() -> None:
     found = outcomes("inverse-slopes", "fill=scanline-lecture")
     assert Outcome.WRONG_PICTURE in found.values()

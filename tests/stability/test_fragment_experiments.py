@@ -8,7 +8,7 @@ from core.settings import Settings
 from core.study.family import settings_of
 from core.study.record import Axis, Outcome
 from core.study.stability import FRAGMENT_EXPERIMENTS, experiments, stress
-from tests.covering import is_everything
+from tests.covering import every_nth, is_everything
 
 NAMES = [experiment.info.name for experiment in FRAGMENT_EXPERIMENTS]
 
@@ -18,7 +18,7 @@ def random_place(axes: tuple[Axis, ...], seed: int) -> tuple[float, ...]:
     return tuple(float(source.choice(axis.values)) for axis in axes)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", every_nth(NAMES, 2))
 def test_weak_methods_fail_somewhere_and_the_last_holds_there(name: str) -> None:
     info = experiments.get(name).info
     ends = tuple(
@@ -32,7 +32,7 @@ def test_weak_methods_fail_somewhere_and_the_last_holds_there(name: str) -> None
     assert (maps[-1].outcome[failed] == Outcome.RIGHT).any()
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", every_nth(NAMES, 4))
 def test_runs_can_be_repeated_and_open_at_a_pixel_that_is_wrong(name: str) -> None:
     experiment = experiments.get(name)
     info = experiment.info

@@ -82,6 +82,7 @@ def test_edges_with_one_value_hold(method: str) -> None:
     assert is_right_everywhere("shared-edges", method, every=3)
 
 
+@pytest.mark.slow
 def test_projecting_first_draws_the_wrong_part_of_a_mesh_behind_the_eye() -> None:
     for method in ("clipping=project-first", "clipping=after-divide"):
         found = outcomes("mesh-through-the-eye", method)

@@ -13,6 +13,7 @@ from core.study.stress import shrink_cell
 ANGLES = study_experiment(study_family("coverage"), ("angle",), "slivers")
 
 
+@pytest.mark.slow
 def test_speed_and_accuracy_of_number_formats_over_the_angle_of_slivers() -> None:
     (angle,) = ANGLES.info.axes
     assert angle.values == (0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8)

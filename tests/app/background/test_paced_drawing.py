@@ -20,6 +20,7 @@ def drawings(page: QWidget) -> tuple[PacedDrawing, list[int]]:
     return pace, drawn
 
 
+@pytest.mark.slow
 def test_many_parts_are_drawn_at_once_and_once_more(page: QWidget, qtbot: QtBot) -> None:
     pace, drawn = drawings(page)
     page.show()

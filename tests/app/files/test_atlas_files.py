@@ -106,6 +106,7 @@ def test_a_broken_atlas_is_refused_with_a_sentence(tmp_path: Path, change: objec
     assert wanted in str(refused.value)
 
 
+@pytest.mark.slow
 def test_a_study_still_opens_on_the_compare_page(window: MainWindow, tmp_path: Path) -> None:
     (tmp_path / "study.json").write_text('{"program": "rasterscope study", "version": 1}')
     window.open_path(str(tmp_path / "study.json"))

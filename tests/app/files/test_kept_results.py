@@ -110,6 +110,7 @@ def test_a_file_that_is_broken_is_told_and_the_others_are_shown(keeping: MainWin
     assert "study-cull.json cannot be opened" in keeping.messages.text.text()
 
 
+@pytest.mark.slow
 def test_what_is_measured_now_is_not_replaced_by_what_was_kept(window: MainWindow, qtbot: QtBot) -> None:
     page = compare_page(window)
     study = measured(page, qtbot)
@@ -117,6 +118,7 @@ def test_what_is_measured_now_is_not_replaced_by_what_was_kept(window: MainWindo
     assert page.content is study
 
 
+@pytest.mark.slow
 def test_a_cancelled_measurement_keeps_the_file_of_the_one_before(keeping: MainWindow, qtbot: QtBot) -> None:
     page = compare_page(keeping)
     measured(page, qtbot)
@@ -189,6 +191,7 @@ def bar_text(window: MainWindow) -> str:
     return window.pages.bar.tabText(window.pages.names.index("compare"))
 
 
+@pytest.mark.slow
 def test_a_study_that_is_done_is_shown_on_its_family(window: MainWindow, qtbot: QtBot) -> None:
     page: ComparePage = compare_page(window)
     QTest.keyClick(window, Qt.Key.Key_F5)

@@ -75,6 +75,7 @@ def test_the_chosen_page_stays_checked_when_it_is_chosen_again(window: MainWindo
         assert "page_step" not in checked
 
 
+@pytest.mark.slow
 def test_undo_theme_and_presenter_work_on_every_page(window: MainWindow) -> None:
     window.session.set_setting("fill", "scanline")
     window.pages.show_page("compare")

@@ -217,6 +217,7 @@ def test_keys_scroll_the_scenes_wherever_the_keyboard_is(window: MainWindow, pag
     assert bar.value() == 0
 
 
+@pytest.mark.slow
 @pytest.mark.own_window
 def test_the_page_is_reached_by_tab_from_begin_to_the_last_group(window: MainWindow, page: StartPage) -> None:
     page.begin_button.setFocus(Qt.FocusReason.TabFocusReason)

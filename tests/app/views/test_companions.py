@@ -169,6 +169,7 @@ def test_a_clipper_fills_its_table_beside_the_pixels(window: MainWindow) -> None
     assert session.explanation.values["border"] == "right"
 
 
+@pytest.mark.slow
 @pytest.mark.own_window
 @pytest.mark.parametrize(
     ("scene", "size", "is_below"),

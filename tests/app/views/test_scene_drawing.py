@@ -198,6 +198,7 @@ def test_the_stages_of_a_frame_add_up_to_less_than_its_time():
     assert drawn.figures.stages["transform"].incoming == drawn.figures.triangle_count
 
 
+@pytest.mark.slow
 def test_two_processes_draw_the_frame_of_one_with_its_lines():
     shot = shot_of("torus", (200, 150))
     alone = draw_scene(shot, BandWorkers(1), HiddenBacks())

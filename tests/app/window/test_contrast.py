@@ -156,6 +156,7 @@ def test_borders_between_panes_can_be_seen(qtbot: QtBot, styled: Theme) -> None:
         assert int((contrast(seen, float(seen[0, 0])) >= 3).sum()) >= 24
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("look", [LIGHT, pytest.param(DARK, marks=pytest.mark.slow)], ids=["light", "dark"])
 def test_the_focus_can_be_seen(window: MainWindow, styled: Theme) -> None:
     """Whatever takes the keyboard shows by 3:1 that it has it, along a line as long as its shorter side."""

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QAbstractButton, QApplication, QSplitterHandle, QT
 
 from app.window import focus_walk
 from app.window.main_window import MainWindow
-from tests.covering import is_everything
+from tests.covering import in_turns, is_everything
 from widgets.basics.accessibility import ArrowGroup, KeyClaim, tab_stops
 from widgets.basics.theme import current_theme
 from widgets.space.scene_view import SceneView
@@ -221,8 +221,10 @@ def test_f6_walks_the_panes_and_escape_comes_back(window: MainWindow) -> None:
 
 
 @pytest.mark.own_window
-@pytest.mark.parametrize("reason", [Qt.FocusReason.MouseFocusReason, Qt.FocusReason.TabFocusReason])
-@pytest.mark.parametrize("opened", ["choose_scene", "show_keys", "go_to_pixel"])
+@in_turns(
+    opened=["choose_scene", "show_keys", "go_to_pixel"],
+    reason=[Qt.FocusReason.MouseFocusReason, Qt.FocusReason.TabFocusReason],
+)
 def test_what_lay_over_the_page_gives_the_keyboard_back(
     window: MainWindow, opened: str, reason: Qt.FocusReason
 ) -> None:

@@ -27,6 +27,7 @@ def is_seen(widget: QWidget) -> bool:
     return not widget.isVisible() or widget.visibleRegion().boundingRect().size() == widget.size()
 
 
+@pytest.mark.slow
 def test_the_buttons_of_a_lesson_stay_in_sight(window: MainWindow) -> None:
     unseen, scrolled, nameless, cut = [], [], [], []
 

@@ -193,6 +193,7 @@ def present(user: NewUser) -> None:
     does("leave", lambda: press("Ctrl+Shift+P"), lambda: user.page.shown_panes() == panes)
 
 
+@pytest.mark.slow
 def test_the_first_run(user: NewUser) -> None:
     walk_the_run(user)
 

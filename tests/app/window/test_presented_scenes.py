@@ -39,6 +39,7 @@ def press(
     QTest.keyClick(window.focusWidget() or window, key, modifiers)
 
 
+@pytest.mark.slow
 def test_type_and_picture_are_as_large_as_a_lecture_hall_needs(presented: MainWindow) -> None:
     page, session = presented.page, presented.session
     for size in SIZES if is_everything() else SIZES[:1]:
@@ -80,6 +81,7 @@ def test_the_formulas_of_a_run_are_not_shrunk(presented: MainWindow) -> None:
             assert formula.heightForWidth(formula.width()) <= formula.height()
 
 
+@pytest.mark.slow
 def test_only_what_the_step_needs_is_shown_and_the_rest_comes_by_key(presented: MainWindow) -> None:
     page = presented.page
     rest = {

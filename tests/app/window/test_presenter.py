@@ -106,6 +106,7 @@ def test_a_table_of_depths_has_large_numbers_or_stands_alone(window: MainWindow)
     assert current_theme().small_px >= 0.9 * current_theme().text_px
 
 
+@pytest.mark.slow
 def test_a_state_of_the_desk_opens_clean_and_one_of_the_presenter_whole(window: MainWindow) -> None:
     page = window.page
     page.show_panes(["scene", "inspector", "details", "thumbnails", "navigator", "run"])

@@ -87,6 +87,7 @@ def test_names_hold_the_text_and_views_have_roles(window: MainWindow) -> None:
     assert fillers == []
 
 
+@pytest.mark.slow
 def test_every_step_is_announced(window: MainWindow, heard: Heard, qtbot: QtBot) -> None:
     """After a step one hears its sentence, the line of the algorithm and the formula in words."""
     window.run_action("step_forward")

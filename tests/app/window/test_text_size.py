@@ -44,6 +44,7 @@ def test_the_window_opens_inside_the_screen() -> None:
     assert size.height() < screen.height()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("size", "percent"), [((853, 533), 100), ((1280, 800), 200)])
 def test_nothing_of_the_step_page_lies_off_the_window(
     window: MainWindow, size: tuple[int, int], percent: int
@@ -77,6 +78,7 @@ def test_nothing_of_the_step_page_lies_off_the_window(
     assert view.height() >= 150
 
 
+@pytest.mark.slow
 def test_large_text_leaves_room_for_the_picture_of_a_stage_with_two_sides(window: MainWindow) -> None:
     window.session.set_stage("transform", 0)
     QApplication.processEvents()

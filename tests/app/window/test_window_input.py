@@ -178,6 +178,7 @@ def test_space_presses_the_button_that_tab_has_reached(window: MainWindow) -> No
     assert not window.page.timeline.is_playing()
 
 
+@pytest.mark.slow
 def test_no_button_lacks_a_name_or_a_tooltip(window: MainWindow) -> None:
     window.page.show_view("compare")
     nameless = [

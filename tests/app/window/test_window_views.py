@@ -79,6 +79,7 @@ def test_every_view_at_every_stage_of_every_scene(window: MainWindow) -> None:
         look_at_everything(window, turn, looks if is_everything() else looks[number % 10 :: 10])
 
 
+@pytest.mark.slow
 def test_scenes_that_show_next_to_nothing(window: MainWindow) -> None:
     turn = cycle((0, 1))
     window.resize(853, 533)
@@ -88,6 +89,7 @@ def test_scenes_that_show_next_to_nothing(window: MainWindow) -> None:
         look_at_everything(window, turn, in_turn(("scene", "clip", "pyramid"), ("clip", "raster")))
 
 
+@pytest.mark.slow
 def test_all_levels_both_ways(window: MainWindow) -> None:
     session = window.session
     for stage, mode in in_turn(STAGES, ["fill", "wireframe"]):
@@ -115,6 +117,7 @@ def test_panes_keep_their_places_from_stage_to_stage(window: MainWindow) -> None
     assert len(found) == 1
 
 
+@pytest.mark.slow
 def test_every_theme_fills_the_window_with_its_ground(window: MainWindow) -> None:
     for theme in (DARK, PRESENTER, LIGHT):
         window.appearance.set_theme(theme.name)
@@ -133,6 +136,7 @@ def test_the_whole_window_fits_its_smallest_size(window: MainWindow) -> None:
     assert right <= window.width()
 
 
+@pytest.mark.slow
 def test_dark_and_light_take_turns(window: MainWindow) -> None:
     application = QApplication.instance()
     found = []
@@ -183,6 +187,7 @@ def test_every_method_fits_into_the_left_column(window: MainWindow, qtbot: QtBot
     assert area.horizontalScrollBar().maximum() == 0
 
 
+@pytest.mark.slow
 def test_the_first_picture_in_space_fits_its_view(qtbot: QtBot) -> None:
     application = QApplication.instance()
     apply_theme(application, LIGHT)

@@ -13,7 +13,7 @@ from core.methods import table
 from tests.core.exact_reference import edge_signs, facing
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of
-from tests.covering import in_turn
+from tests.covering import every_nth, in_turn
 
 EXACT_FILLS = [name for name in table.names("fill") if not table.get("fill", name).breaks_where]
 
@@ -58,7 +58,9 @@ def test_every_fill_draws_the_same_samples(name, fill):
 
 
 @pytest.mark.parametrize(
-    ("name", "choice"), in_turn(["clip", "lit", "orthographic"], [*CHOICES, *MIXES]), ids=name_of
+    ("name", "choice"),
+    every_nth(in_turn(["clip", "lit", "orthographic"], [*CHOICES, *MIXES]), 3),
+    ids=name_of,
 )
 def test_a_pixel_that_one_triangle_fills_looks_as_without(name, choice):
     scene = SCENES[name]

@@ -109,6 +109,7 @@ def test_sums_are_rounded_one_after_the_other(cases, number) -> None:
         assert before[k, 0] == earlier
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("coverage", ["float64", "float32", "float16", "inverse"])
 def test_rounded_sums_drift(coverage: str) -> None:
     # Sides with slopes that no binary number has; far along the rows the sum has lost its way.

@@ -18,7 +18,7 @@ from core.stages.needs import refusal as refusal_of_scene
 from lessons.mistakes.twin import frame_bytes
 from lessons.scenes import make_scene, scene_names
 from tests.core.trace.trace_cases import lit_scene, textured_clip_scene
-from tests.covering import is_everything
+from tests.covering import every_nth, is_everything
 
 CASES = [
     (part.name, of)
@@ -75,7 +75,7 @@ def test_draws_what_the_rule_draws_in_every_small_scene(part, of):
         assert frame_bytes(render(scene, plain)) == frame_bytes(render(scene, typed)), scene
 
 
-@pytest.mark.parametrize(("part", "of"), CASES)
+@pytest.mark.parametrize(("part", "of"), every_nth(CASES, 3))
 def test_the_trace_and_the_history_of_a_pixel_are_those_of_the_rule(part, of):
     plain, typed = settings_for(part, of), unedited(part, of)
     stage, scene = EDITABLE[part].stage, SCENES[SHOWN.get(part, "intersecting")]

@@ -14,6 +14,7 @@ from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.numbers import Draws
 from lessons.exercises.question import ask, judge
 from lessons.exercises.record import AnswerPart
+from tests.covering import is_everything
 from tests.lessons.exercises.first_questions import first_question
 
 NOW = datetime(2026, 11, 23, 12, tzinfo=UTC)
@@ -30,6 +31,8 @@ def test_every_answer_can_be_read_again_from_its_text() -> None:
     for template in TEMPLATES.values():
         question = first_question(template.name)
         answer = question.draft.answer
+        if answer.kind in kinds and not is_everything():
+            continue
         kinds.add(answer.kind)
         guess = [] if answer.kind in ("steps", "pixels") else [answer.random(Draws(5))]
         for response in (answer.reference, *question.draft.mistakes.values(), *guess):

@@ -19,6 +19,7 @@ from lessons.lectures.scenes import ALL_SCENES
 from lessons.mistakes.coverage import rounded
 from lessons.scenes import BuiltInScene, make_scene
 from lessons.small_scenes import pixel_segments, triangle_scene
+from tests.covering import every_nth
 from tests.lessons.diagnosis.plain_rasterizer import Homework, bresenham, over, perspective, shown
 
 SIZE = (16, 12)
@@ -256,7 +257,7 @@ def test_homework_without_a_mistake_is_right(draw) -> None:
     assert draw().is_right
 
 
-@pytest.mark.parametrize("name", ["multiplied-by-w", "ties-step"])
+@pytest.mark.parametrize("name", every_nth(["multiplied-by-w", "ties-step"], 2))
 def test_a_planted_mistake_is_named(name: str) -> None:
     assert name in [each.name for each in PLANTED[name]().found if each.is_mistake]
 
@@ -330,7 +331,8 @@ def test_weights_are_permuted_either_way(turn: int) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "planted"), [("last-pixel-lost", {"last": 0}), ("not-corrected", {"corrected": False})]
+    ("name", "planted"),
+    every_nth([("last-pixel-lost", {"last": 0}), ("not-corrected", {"corrected": False})], 2),
 )
 def test_a_line_is_known_by_the_rule_of_its_scene(name: str, planted: dict) -> None:
     covered = np.zeros((12, 16), bool)
@@ -340,6 +342,7 @@ def test_a_line_is_known_by_the_rule_of_its_scene(name: str, planted: dict) -> N
     assert name in [each.name for each in found]
 
 
+@pytest.mark.slow
 def test_a_mistake_of_points_is_none_of_triangles() -> None:
     scene = ALL_SCENES["zwicker-4x3"].make()
     drawn = render(scene, Settings(pixel_center="integer"))

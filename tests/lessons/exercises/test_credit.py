@@ -9,7 +9,7 @@ from lessons.exercises.answers.fields import Column, NumberAnswer, TableAnswer, 
 from lessons.exercises.asked import RULE_NUMBERS, numbers_in, topics
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import ask, judge
-from tests.covering import is_everything
+from tests.covering import every_nth, is_everything
 from tests.lessons.exercises.first_questions import first_question
 
 
@@ -33,7 +33,7 @@ def test_a_known_mistake_earns_at_most_half_of_a_pixel_question() -> None:
 
 
 def test_what_credit_says_never_depends_on_the_answer() -> None:
-    for name, template in TEMPLATES.items():
+    for name, template in every_nth(TEMPLATES.items(), 3):
         if first_question(name).draft.answer.kind in ("pixels", "choice", "spot"):
             credit = first_question(name).draft.answer.credit
             assert ask(template, 2).draft.answer.credit == credit, name

@@ -23,6 +23,7 @@ from lessons.exercises.templates.clipping import outcode_table, parameter_table
 from lessons.exercises.templates.lines import d_table
 from lessons.mistakes.shelf import SHELF
 from lessons.mistakes.twin import Twin
+from tests.covering import every_nth
 from tests.lessons.exercises.first_questions import first_question
 
 ROOT = Path(__file__).parents[3]
@@ -42,7 +43,7 @@ def test_a_template_asks_fairly(template: Template) -> None:
 
 
 def test_the_last_hint_is_written_from_the_numbers_of_the_question() -> None:
-    for name, template in TEMPLATES.items():
+    for name, template in every_nth(TEMPLATES.items(), 3):
         drafts = [first_question(name).draft, ask(template, 1).draft]
         if len({draft.hints[-1] for draft in drafts}) > 1:
             continue

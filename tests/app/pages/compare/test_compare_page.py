@@ -27,6 +27,7 @@ def page(window: MainWindow) -> ComparePage:
     return compare_page(window)
 
 
+@pytest.mark.slow
 def test_every_family_of_the_core_is_offered(page: ComparePage) -> None:
     titles = [page.entries.item(row).text() for row in range(page.entries.count())]
     assert len(titles) == len(study_families())
@@ -58,6 +59,7 @@ def test_measuring_shows_every_method_and_the_front(page: ComparePage, qtbot: Qt
     assert not page.controls.cancel_button.isVisible()
 
 
+@pytest.mark.slow
 def test_a_family_that_has_a_result_can_be_shown_while_another_is_measured(
     page: ComparePage, qtbot: QtBot
 ) -> None:
@@ -88,6 +90,7 @@ def test_cancelling_leaves_what_was_measured_before(page: ComparePage, qtbot: Qt
     assert page.content is before, "no late point of the cancelled measurement comes in"
 
 
+@pytest.mark.slow
 @pytest.mark.own_window
 def test_cancelling_the_first_measurement_draws_nothing(page: ComparePage, qtbot: QtBot) -> None:
     drawn: list[int] = []
@@ -105,6 +108,7 @@ def test_cancelling_the_first_measurement_draws_nothing(page: ComparePage, qtbot
     assert page.choice.result is None
 
 
+@pytest.mark.slow
 def test_a_failed_measurement_leaves_earlier_results(page: ComparePage, qtbot: QtBot) -> None:
     before = measured(page, qtbot)
     page.begin(partial(measured_on, partial(measure, "visibility", "cycle", {"length": 3.0}), None), "")
@@ -245,6 +249,7 @@ def test_a_crowded_chart_has_a_list_of_its_marks(page: ComparePage) -> None:
     assert page.legend.currentItem().text().startswith("Method ")
 
 
+@pytest.mark.slow
 def test_a_hidden_page_draws_no_points_until_it_is_seen(
     window: MainWindow, page: ComparePage, qtbot: QtBot
 ) -> None:

@@ -74,6 +74,7 @@ def test_the_pinned_pixel_is_where_stepping_begins(
     assert window.session.pin == page.pictures.pin
 
 
+@pytest.mark.slow
 def test_two_points_are_locked_and_stepped_to_where_they_part(
     window: MainWindow, page: ComparePage, qtbot: QtBot
 ) -> None:

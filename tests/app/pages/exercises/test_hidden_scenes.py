@@ -127,6 +127,7 @@ def test_another_scene_is_not_hidden(window: MainWindow, qtbot: QtBot) -> None:
     page.questions.give_up()
 
 
+@pytest.mark.slow
 def test_another_question_hides_its_own_scene(window: MainWindow) -> None:
     page = ask_value(window, 32)
     page.questions.open(TEMPLATES["triangle-coverage"], 7)

@@ -85,6 +85,7 @@ def another_scene(window: MainWindow) -> None:
     window.session.edit(replace(document, scene=scene, title="Another"))
 
 
+@pytest.mark.slow
 def test_the_page_is_reached_from_step_and_compare(window: MainWindow) -> None:
     for start in ("step", "compare"):
         window.pages.show_page(start)
@@ -334,6 +335,7 @@ def test_closing_while_looking_ends_the_thread(page: PlanPage) -> None:
     assert time.perf_counter() - start < 20
 
 
+@pytest.mark.slow
 def test_panes_come_back_as_they_were(page: PlanPage) -> None:
     page.columns.setSizes([300, 900])
     state = page.layout_state()

@@ -80,6 +80,7 @@ def test_a_row_of_the_list_opens_the_first_failure(page: StabilityPage, window: 
             assert f"No cell of {STRONG} fails" in window.statusBar().currentMessage()
 
 
+@pytest.mark.slow
 def test_curves_come_with_the_cells_and_go_with_a_second_axis(page: StabilityPage, qtbot: QtBot) -> None:
     page.show_named("precision-dial")
     page.choice.resolution = "coarse"

@@ -31,6 +31,7 @@ def page(window: MainWindow) -> StabilityPage:
     return stability_pages.stability_page(window)
 
 
+@pytest.mark.slow
 @pytest.mark.own_window
 def test_every_experiment_is_offered_and_the_open_scene_last(page: StabilityPage) -> None:
     titles = [page.entries.item(row).text() for row in range(page.entries.count())]
@@ -79,6 +80,7 @@ def test_cancelling_leaves_the_maps_of_before(page: StabilityPage, qtbot: QtBot)
     assert page.choice.result.content is before
 
 
+@pytest.mark.slow
 def test_a_failed_run_leaves_the_maps_of_before(page: StabilityPage, qtbot: QtBot) -> None:
     before = stability_pages.run(page, qtbot)
     wrong = (Axis("height", "Height", "", (1.0,)),)

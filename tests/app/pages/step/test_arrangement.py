@@ -39,6 +39,7 @@ def area_of_the_view(window: MainWindow) -> float:
     return view.width() * view.height() / (window.width() * window.height())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("size", "least"), [((1280, 800), 0.45), pytest.param((1920, 1080), 0.6, marks=pytest.mark.slow)]
 )
@@ -93,6 +94,7 @@ def test_no_feedback_moves_the_grid(window: MainWindow) -> None:
     assert place_of_pixel(window) == place
 
 
+@pytest.mark.slow
 def test_no_step_of_a_stage_moves_the_grid(window: MainWindow) -> None:
     for stage in ("transform", "edges", "raster", "depth"):
         window.session.set_stage(stage, 0)
@@ -120,6 +122,7 @@ def test_panes_are_folded_at_first_and_come_by_keys(window: MainWindow) -> None:
     assert page.side_panes.isHidden()
 
 
+@pytest.mark.slow
 def test_a_buffer_that_is_alone_is_shown_once(window: MainWindow) -> None:
     page = window.page
     page.toggle_pane("thumbnails")
@@ -167,6 +170,7 @@ def test_the_layout_of_an_earlier_version_opens_as_at_first(window: MainWindow, 
     other.close()
 
 
+@pytest.mark.slow
 def test_nothing_is_cut_that_stands_nowhere_else(window: MainWindow) -> None:
     """Labels, tabs and buttons at 1280 x 800: whole, or with the whole text as a tip."""
     for stage in STAGES:
@@ -192,6 +196,7 @@ def test_nothing_is_cut_that_stands_nowhere_else(window: MainWindow) -> None:
                 assert least <= widget.viewport().height(), (where, rows)
 
 
+@pytest.mark.slow
 def test_every_method_can_be_read_whole_in_its_box(window: MainWindow) -> None:
     """Of every family, beside a scroll bar."""
     page = window.page
@@ -210,6 +215,7 @@ def test_every_method_can_be_read_whole_in_its_box(window: MainWindow) -> None:
         panel.show_more(False)
 
 
+@pytest.mark.slow
 @pytest.mark.own_window
 def test_ten_lines_are_in_sight_around_each_line_of_every_listing(window: MainWindow) -> None:
     """Whole, though some are wrapped; all of them where a function has fewer."""
@@ -239,6 +245,7 @@ def test_ten_lines_are_in_sight_around_each_line_of_every_listing(window: MainWi
 LEAST_TARGET = 24
 
 
+@pytest.mark.slow
 def test_everything_that_is_clicked_is_large_enough(window: MainWindow) -> None:
     """On every page; a border between panes is moved by its keys too, and what scrolls by wheel and keys."""
     application = QApplication.instance()

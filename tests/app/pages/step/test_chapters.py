@@ -36,6 +36,7 @@ def test_a_part_behind_the_eye_is_named_where_nothing_is_clipped(name: str, is_b
     assert ("behind the eye" in chapters_by_stage(name)["clip"].reason) == is_behind
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("antialiasing", ["none", "msaa-4", "ssaa-4", "area"])
 @pytest.mark.parametrize("more", [{}, {"polygon_mode": "wireframe"}, {"visibility": "painters"}], ids=str)
 def test_the_rail_counts_the_rows(antialiasing: str, more: dict[str, str]) -> None:

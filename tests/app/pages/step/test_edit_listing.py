@@ -357,6 +357,7 @@ def test_one_that_draws_the_same_is_said_to(window: MainWindow) -> None:
     wait(lambda: "same picture" in pane_of(window).message.text())
 
 
+@pytest.mark.slow
 def test_the_pixel_history_of_b_asks_the_edited_decision(window: MainWindow) -> None:
     window.session.open(open_any("shared-edge").document)
     window.session.set_stage("raster", 4000)
@@ -419,6 +420,7 @@ def test_an_edit_that_does_not_fit_the_scene_sleeps(window: MainWindow) -> None:
     wait_for_b(window)
 
 
+@pytest.mark.slow
 def test_a_state_opens_with_the_edit_in_b(window: MainWindow, tmp_path: Path) -> None:
     bresenham(window)
     editor = edit(window, "D = 2 * dy - dx")

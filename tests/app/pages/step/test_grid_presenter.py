@@ -17,6 +17,7 @@ from widgets.grid.layers import MaskOverlay
 pytestmark = pytest.mark.shared_window
 
 
+@pytest.mark.slow
 def test_tiles_show_the_arrays_of_the_trace(window: MainWindow) -> None:
     window.page.toggle_pane("thumbnails")
     for stage in STAGES:
@@ -178,6 +179,7 @@ def test_of_many_triangles_only_the_one_in_focus_is_outlined(
     assert np.array_equal(geometry.vertices[0], assembled.vertices.window[corner, :2] - origin)
 
 
+@pytest.mark.slow
 def test_a_corner_of_one_of_many_triangles_is_dragged(window: MainWindow, qtbot: QtBot) -> None:
     clip = np.tile([[-0.5, -0.5, 0.0, 1.0], [0.5, -0.5, 0.0, 1.0], [0.0, 0.5, 0.0, 1.0]], (500, 1, 1))
     scene = ClipScene(clip, size=(16, 16))

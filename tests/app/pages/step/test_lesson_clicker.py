@@ -88,6 +88,7 @@ def test_a_clicker_leads_back_from_a_scene_to_the_lesson(
     assert (settled(window, qtbot).number, walk.standings[1]) == (2, SEEN)
 
 
+@pytest.mark.slow
 def test_a_clicker_shows_how_a_task_is_done(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
     walk = opened(window, qtbot, tmp_path, 3)
     scene = window.session.document.scene

@@ -77,6 +77,7 @@ def test_a_shader_that_is_typed_is_a_task(window: MainWindow, qtbot: QtBot, tmp_
     assert walk.view.feedback.text().startswith("Done.")
 
 
+@pytest.mark.slow
 def test_a_step_names_the_buffer_of_a_and_b(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
     walk = opened(window, qtbot, tmp_path, 0, lesson_text("three-signs"))
     walk.go(0)
@@ -109,6 +110,7 @@ def test_what_a_check_finds_stays_marked(
     assert form.editor.has_problem
 
 
+@pytest.mark.slow
 @pytest.mark.own_window
 def test_next_keeps_its_place_below_a_listing_that_scrolls(window: MainWindow, qtbot: QtBot) -> None:
     window.resize(1280, 640)

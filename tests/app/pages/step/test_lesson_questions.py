@@ -84,6 +84,7 @@ def test_without_a_refuting_step_the_run_with_the_mistake_stands_beside(
     assert "all edges inclusive" in window.page.compare_view.linked.titles[1].text()
 
 
+@pytest.mark.slow
 def test_check_and_next_keep_their_place(window: MainWindow, qtbot: QtBot, walk: LessonWalk) -> None:
     view, places = walk.view, []
     for given in (None, 25, 3, 16):
@@ -94,6 +95,7 @@ def test_check_and_next_keep_their_place(window: MainWindow, qtbot: QtBot, walk:
     assert places == places[:1] * 4
 
 
+@pytest.mark.slow
 def test_next_keeps_its_place_when_marked_pixels_are_right(
     window: MainWindow, qtbot: QtBot, tmp_path: Path
 ) -> None:
@@ -107,6 +109,7 @@ def test_next_keeps_its_place_when_marked_pixels_are_right(
     assert walk.view.next_button.mapTo(window, QPoint()) == before
 
 
+@pytest.mark.slow
 @pytest.mark.own_window
 def test_the_line_of_the_step_is_in_sight_below_a_long_answer(window: MainWindow, qtbot: QtBot) -> None:
     window.resize(1280, 800)
@@ -179,6 +182,7 @@ def test_p_ends_no_question_and_stepping_on_leaves_a_seen_step(
     assert walk.standings[1] is SEEN
 
 
+@pytest.mark.slow
 def test_a_hidden_page_offers_to_leave_the_lesson(window: MainWindow, walk: LessonWalk) -> None:
     window.pages.show_page("compare")
     window.pages.cover.leave_button.click()
@@ -216,6 +220,7 @@ def test_a_question_asked_again_has_nothing_marked(window: MainWindow, qtbot: Qt
     assert form.count.text().startswith("0 ")
 
 
+@pytest.mark.slow
 def test_two_answers_look_alike(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
     """Two scenes that differ by a hair, in the answer alone, show the same in every pixel while they are asked."""
     seen: list[QImage] = []

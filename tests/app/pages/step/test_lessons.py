@@ -279,6 +279,7 @@ def test_no_step_stands_beside_a_whole_picture_and_a_listing_that_is_typed(
     assert not column.isVisible()
 
 
+@pytest.mark.slow
 @pytest.mark.own_window
 @pytest.mark.parametrize(
     ("name", "step"), [("one-row", 3), pytest.param("spaces", 4, marks=pytest.mark.slow)]

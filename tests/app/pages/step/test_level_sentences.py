@@ -93,6 +93,7 @@ def test_a_pixel_of_a_span_names_its_columns() -> None:
     assert any("a test of its own: it is in the span of row 6, columns 8 to 10." in text for text in found)
 
 
+@pytest.mark.slow
 def test_a_listing_as_printed_is_told_wrong_just_where_its_picture_is() -> None:
     for name in ("lmu-scanline-triangle", "shared-edge", "single-triangle", "triangle-strip"):
         scene = make_scene(name) if name in scene_names() else ALL_SCENES[name].make()

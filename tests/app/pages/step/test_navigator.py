@@ -32,6 +32,7 @@ def model(window: MainWindow) -> MainWindow:
     return window
 
 
+@pytest.mark.slow
 def test_a_model_fills_the_view_that_it_opens_in(model: MainWindow) -> None:
     assert model.page.current_view() == "scene"
     presenter = model.page.views.scene_presenter
@@ -140,6 +141,7 @@ def test_the_navigator_keeps_off_the_step(window: MainWindow) -> None:
     assert not page.navigator.geometry().intersects(cell)
 
 
+@pytest.mark.slow
 def test_the_navigator_hides_no_vertex_where_a_corner_is_free(window: MainWindow) -> None:
     page, session = window.page, window.session
     window.resize(1280, 800)
@@ -172,6 +174,7 @@ def test_the_navigator_shows_the_outline_until_the_run_is_done(window: MainWindo
     assert colors() == outline
 
 
+@pytest.mark.slow
 def test_the_navigator_leaves_the_numbers_beside_the_raster(window: MainWindow) -> None:
     page, session = window.page, window.session
     session.open(open_document(built_in_scene("teapot").make(), "Teapot"))
@@ -182,6 +185,7 @@ def test_the_navigator_leaves_the_numbers_beside_the_raster(window: MainWindow) 
     assert raster.left() <= page.navigator.geometry().left()
 
 
+@pytest.mark.slow
 def test_a_mesh_opens_large_from_its_front_also_when_it_opens_again(window: MainWindow) -> None:
     opened, page = replace(open_any("torus"), place=FIRST_STEP), window.page
     window.files.show_opened(opened)

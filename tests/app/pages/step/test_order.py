@@ -19,6 +19,7 @@ def refreshes(window: MainWindow, do: Callable[[], object]) -> Counter[str]:
     return calls_of([show for _, show in order_of_parts(window.page)], do)
 
 
+@pytest.mark.slow
 def test_a_change_refreshes_each_part_once(window: MainWindow) -> None:
     session = window.session
     session.set_stage("raster", 400)

@@ -73,6 +73,7 @@ def test_what_every_pane_owes(window: MainWindow, tmp_path: Path, pane: Pane) ->
     assert pane.name in look.panes
 
 
+@pytest.mark.slow
 def test_the_presenter_puts_every_pane_aside_and_leaving_brings_them_back(window: MainWindow) -> None:
     """Unless one is what is presented."""
     page, names = window.page, {pane.name for pane in PANES}

@@ -34,6 +34,7 @@ def polygon_of(window: MainWindow) -> ClipScene:
     return scene
 
 
+@pytest.mark.slow
 def test_every_view_shows_a_polygon(window: MainWindow) -> None:
     open_scene(window, "polygon-holes")
     for stage in ("transform", "clip", "raster"):
@@ -45,6 +46,7 @@ def test_every_view_shows_a_polygon(window: MainWindow) -> None:
     assert window.page.grids.geometry.rings == (0, 7, 11)
 
 
+@pytest.mark.slow
 @pytest.mark.own_window
 def test_a_table_below_leaves_the_picture_most_of_the_height(window: MainWindow) -> None:
     open_scene(window, "polygon-holes")

@@ -14,6 +14,7 @@ from core.explain.steps import question
 from core.records.steps import Level
 from core.trace.stage_trace import StageTrace
 from lessons.scenes import make_scene
+from tests.covering import every_nth
 from widgets.grid.layers import CellMark, MaskOverlay
 
 pytestmark = pytest.mark.shared_window
@@ -60,6 +61,7 @@ def first_difference(first: StageTrace, second: StageTrace) -> int:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("fill", "stage", "make", "change", "is_row_asked"),
     [
@@ -101,7 +103,7 @@ def test_no_view_tells_anything_of_a_pixel(window: MainWindow) -> None:
     session.open(open_document(make_scene("shared-edge"), "Shared edge"))
     page.set_predicting(True)
     views = [name for name in page.view_names() if name != "pixels"]
-    for stage in ("raster", "interpolate", "depth"):
+    for stage in every_nth(("raster", "interpolate", "depth"), 3):
         session.set_stage(stage, 0)
         for view in views:
             page.show_view(view)

@@ -85,6 +85,7 @@ def test_a_reveal_counts_neither_way(asking: MainWindow) -> None:
     assert view.count.text() == ""
 
 
+@pytest.mark.slow
 def test_every_stage_can_be_gone_through_while_asking(asking: MainWindow) -> None:
     for stage in STAGES:
         session, view = asking.session, asking.page.prediction

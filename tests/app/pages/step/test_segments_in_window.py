@@ -16,6 +16,7 @@ from core import STAGES
 from core.records.steps import Level
 from core.scene import ClipScene
 from lessons.scenes import make_scene
+from tests.covering import every_nth
 from widgets.timeline.chapters import ChapterState
 
 pytestmark = pytest.mark.shared_window
@@ -29,7 +30,7 @@ def open_scene(window: MainWindow, name: str) -> ClipScene:
     return scene
 
 
-@pytest.mark.parametrize(("name", "handles"), [("segment", 2), ("points", 1)])
+@pytest.mark.parametrize(("name", "handles"), every_nth([("segment", 2), ("points", 1)], 2))
 @pytest.mark.own_window
 def test_every_end_has_a_handle_that_moves_it(window: MainWindow, name: str, handles: int) -> None:
     scene, grid = open_scene(window, name), window.page.grid
@@ -48,6 +49,7 @@ def test_every_end_has_a_handle_that_moves_it(window: MainWindow, name: str, han
     assert window.session.document.scene is scene
 
 
+@pytest.mark.slow
 def test_right_goes_from_stage_to_stage_and_left_back(window: MainWindow) -> None:
     open_scene(window, "segment")
     session = window.session
@@ -86,7 +88,7 @@ def test_families_of_areas_say_why_they_do_nothing(window: MainWindow) -> None:
     assert reasons["line"] == reasons["line_clipping"] == ""
 
 
-@pytest.mark.parametrize("clipper", ["Cohen-Sutherland", "Liang-Barsky", "Cyrus-Beck"])
+@pytest.mark.parametrize("clipper", every_nth(["Cohen-Sutherland", "Liang-Barsky", "Cyrus-Beck"], 3))
 def test_a_typed_segment_is_stepped_in_six_actions_and_clipped_in_three_more(
     window: MainWindow, qtbot: QtBot, clipper: str
 ) -> None:

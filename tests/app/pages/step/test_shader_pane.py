@@ -89,6 +89,7 @@ def test_a_mistake_leaves_the_picture_and_is_marked_at_its_place(lab, qtbot):
     assert editor.extraSelections() == []
 
 
+@pytest.mark.slow
 def test_an_endless_loop_is_refused_in_a_sentence(lab, qtbot):
     program = _program(lab)
     with qtbot.waitSignal(lab.page.shader_pane.source_settled):
@@ -336,6 +337,7 @@ def test_a_variable_without_a_value_is_told(lab, qtbot):
     assert "read without a value" in [overlay.label for overlay in mask_overlays(lab.session.moment)]
 
 
+@pytest.mark.slow
 def test_a_mistake_of_the_shelf_is_named(lab, qtbot):
     swapped = (
         lab.page.shader_pane.editor("vertex")
@@ -371,6 +373,7 @@ def test_undo_in_the_editor_goes_back_over_a_preset(lab, qtbot):
     )
 
 
+@pytest.mark.slow
 def test_what_darkens_the_middle_of_triangles_is_named(lab, qtbot):
     _open(lab, "sphere")
     _choose(lab.page.shader_pane._preset, "phong")
@@ -379,6 +382,7 @@ def test_what_darkens_the_middle_of_triangles_is_named(lab, qtbot):
     assert "interpolation shortens it between the vertices" in lab.page.shader_pane.message
 
 
+@pytest.mark.slow
 def test_a_textured_scene_is_stepped_by_shaders(lab):
     _choose(lab.page.shader_pane._preset, "")
     _open(lab, "textured-floor")

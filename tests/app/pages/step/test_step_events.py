@@ -87,6 +87,7 @@ def test_a_step_that_moves_nothing_in_space_paints_no_space(window: MainWindow, 
     assert [count.paints[view] for view in views] == [1, 1]
 
 
+@pytest.mark.slow
 def test_a_table_that_fills_is_laid_out_by_itself_and_painted_once(window: MainWindow, qtbot: QtBot) -> None:
     session, page = window.session, window.page
     session.open(open_document(make_scene("cube"), "cube"))

@@ -209,6 +209,7 @@ def test_a_level_button_changes_how_far_a_step_goes(window: MainWindow) -> None:
     assert not window.page.timeline.back_button.isEnabled()
 
 
+@pytest.mark.slow
 def test_right_and_left_walk_the_whole_run(window: MainWindow) -> None:
     session = window.session
     session.set_stage(STAGES[0], 0)

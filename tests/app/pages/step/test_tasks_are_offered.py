@@ -10,6 +10,7 @@ from lessons.course.state import States
 from widgets.basics.settings_panel import MORE, SettingsPanel
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", list(shipped().lessons))
 def test_the_methods_of_a_task_are_listed_or_the_text_names_the_button(qtbot: QtBot, name: str) -> None:
     lesson = shipped().named(name)

@@ -13,7 +13,7 @@ from core.fast_path.draw_context import Route
 from core.fast_path.workers.band_workers import BandWorkers
 from core.fast_path.workers.sharing import have_colors_of_whole, joined_route
 from tests.core.fast_path.band_scenes import SCENES, SPANS, ball, textured_ball
-from tests.covering import in_turn
+from tests.covering import every_nth, in_turn
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +24,7 @@ def workers() -> Iterator[BandWorkers]:
         assert started.failure == ""
 
 
-@pytest.mark.parametrize(("name", "encoding"), in_turn(list(SCENES), ["srgb", "linear"]))
+@pytest.mark.parametrize(("name", "encoding"), every_nth(in_turn(SCENES, ["srgb", "linear"]), 3))
 def test_two_processes_draw_the_bytes_of_one(workers: BandWorkers, name: str, encoding: str) -> None:
     scene, settings = SCENES[name]
     alone = draw_picture(scene, settings, encoding=encoding)
@@ -90,7 +90,7 @@ def test_the_route_of_a_picture_is_that_of_the_bands_that_show_something(colors,
     assert joined_route([nothing, nothing]) == nothing
 
 
-@pytest.mark.parametrize("name", list(SCENES))
+@pytest.mark.parametrize("name", every_nth(SCENES, 4))
 def test_two_processes_find_the_depth_that_one_finds(workers: BandWorkers, name: str) -> None:
     scene, settings = SCENES[name]
     count = scene.size[0] * scene.size[1]

@@ -333,6 +333,7 @@ def test_temporal() -> None:
     assert moving["kept"].errors["mean-color"] > 1.4 * moving["clamped"].errors["mean-color"]
 
 
+@pytest.mark.slow
 def test_hierarchy() -> None:
     # A mesh as one object: every ray asks its box, and all that meet it ask 120 triangles. A BVH of n leaves with one
     # triangle each has 2 n - 1 nodes, and lists each once. An octree lists one in every cell that it touches.

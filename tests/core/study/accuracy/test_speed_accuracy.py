@@ -143,7 +143,7 @@ def test_the_work_is_the_same_for_the_same_seed() -> None:
 
 
 def test_integer_bresenham_needs_no_floats_and_is_never_worse_than_float_bresenham() -> None:
-    study = measured("line", "pixel-ends", dials={"length": 256})
+    study = measured("line", "pixel-ends", dials={"length": 64})
     points = by_method(study)
     integer, with_floats = points["line=bresenham"], points["line=bresenham-float"]
     assert not [name for name in integer.counts if name.startswith("float")]

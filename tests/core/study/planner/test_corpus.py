@@ -61,6 +61,7 @@ def test_reasons_are_sentences_with_what_was_measured(plans: list[Plan]) -> None
             assert not decision.is_needed or "kept." in decision.reason
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "seed", [0, pytest.param(2, marks=pytest.mark.slow), pytest.param(4, marks=pytest.mark.slow)]
 )

@@ -11,6 +11,7 @@ from core.study.planner.reference_settings import reference_settings
 from core.study.planner.trials import TIMED_PIXELS, Costs, TriedCosts
 from core.study.workloads import sphere_scene
 from tests.core.study.planner.needy_scenes import highlight
+from tests.covering import every_nth
 
 
 class Opposite(Costs):
@@ -41,7 +42,7 @@ def test_a_larger_picture_is_predicted_to_take_longer() -> None:
     assert times[1] > times[0]
 
 
-@pytest.mark.parametrize("family", [name for name in STAGES if name != "antialiasing"])
+@pytest.mark.parametrize("family", every_nth((name for name in STAGES if name != "antialiasing"), 4))
 def test_what_is_slower_is_not_chosen_and_told(family: str) -> None:
     scene, tolerance = highlight(), Tolerance(250.0)
     usual = plan(scene, tolerance, costs=Costs())

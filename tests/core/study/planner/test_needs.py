@@ -12,6 +12,7 @@ from core.study.planner.planning import plan
 from core.study.planner.records import Tolerance
 from core.study.planner.reference_settings import reference_settings
 from core.study.planner.trials import Costs, difference, shown
+from tests.covering import every_nth
 
 CHEAP = {
     "cull": ("back",),
@@ -44,7 +45,7 @@ this moves across an edge is seen only where the edge has a contrast that one sa
 """
 
 
-@pytest.mark.parametrize(("make", "needed", "with_it"), NEEDS, ids=[make.__name__ for make, _, _ in NEEDS])
+@pytest.mark.parametrize(("make", "needed", "with_it"), every_nth(NEEDS, 3))
 def test_what_is_needed_is_kept_and_the_rest_is_dropped(
     make: Callable[[], AnyScene], needed: str, with_it: tuple[str, ...]
 ) -> None:

@@ -60,6 +60,7 @@ def test_a_watch_ends_measuring() -> None:
         check_plan(scene, plan(scene), 1, watch)
 
 
+@pytest.mark.slow
 def test_each_choice_alone_is_timed_on_demand() -> None:
     scene = built_in_scene("shared-edge").make()
     chosen = plan(scene)

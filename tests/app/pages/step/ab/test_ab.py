@@ -17,6 +17,7 @@ from app.window.main_window import MainWindow
 from core import STAGES, Settings
 from core.study.divergence import diverge, is_same_schedule, stage_divergence
 from lessons.scenes import make_scene
+from tests.covering import every_nth
 from widgets.grid.compare_view import Side
 from widgets.grid.layers import GridBuffer
 
@@ -68,7 +69,7 @@ def test_one_key_shows_both_and_the_pixels_again(window: MainWindow) -> None:
     assert not window.menus.actions_by_name["compare"].isChecked()
 
 
-@pytest.mark.parametrize("name", ["single-triangle", "textured-floor", "cube"])
+@pytest.mark.parametrize("name", every_nth(["textured-floor", "single-triangle", "cube"], 3))
 def test_b_differs_in_the_stage_that_is_shown_and_draws(window: MainWindow, name: str) -> None:
     scene = make_scene(name)
     window.session.open(open_document(scene, name))
@@ -327,6 +328,7 @@ def test_a_slow_b_is_drawn_in_the_background(window: MainWindow, qtbot: QtBot) -
     qtbot.waitUntil(lambda: "pixels differ" in window.page.compare_view.summary.text(), timeout=20000)
 
 
+@pytest.mark.slow
 def test_a_vertex_is_dragged_in_any_of_the_pictures(window: MainWindow) -> None:
     session = window.session
     session.open(replace(session.document, triangle=0))

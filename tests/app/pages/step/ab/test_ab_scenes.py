@@ -78,6 +78,7 @@ def test_b_is_kept_where_it_has_an_effect(window: MainWindow) -> None:
     assert dict(comparing.differences) == {}, "A has them already"
 
 
+@pytest.mark.slow
 def test_undoing_an_opened_scene_forgets_what_has_no_effect_in_the_other(window: MainWindow) -> None:
     comparing = compared(window, "cube").page.comparing
     window.session.open(opened("pellacini-line"))
@@ -193,6 +194,7 @@ def test_leaving_ends_the_search_and_the_run_of_b(window: MainWindow) -> None:
     assert window.session.cursor != before, "what was asked for before it is shown holds"
 
 
+@pytest.mark.slow
 def test_each_stage_keeps_its_buffer(window: MainWindow) -> None:
     comparing = compared(window, "cube", "depth", visibility="last-drawn").page.comparing
     box = window.page.compare_view.buffer_box
@@ -225,6 +227,7 @@ def test_a_wheel_over_a_choice_of_buffers_changes_nothing(window: MainWindow) ->
         assert not turned.isAccepted()
 
 
+@pytest.mark.slow
 def test_pictures_of_a_and_b_have_a_margin_and_name_the_settings(window: MainWindow, tmp_path: Path) -> None:
     compared(window, "shared-edge", fill="scanline", depth="z-16")
     titles = [title.text().splitlines()[0] for title in window.page.compare_view.titles[:2]]

@@ -24,6 +24,7 @@ def opened(window: MainWindow, scene: str) -> MainWindow:
     return window
 
 
+@pytest.mark.slow
 def test_bresenham_as_printed_steps_up_one_column_early(window: MainWindow) -> None:
     opened(window, "pellacini-line")
     said: list[str] = []
