@@ -11,10 +11,13 @@ from core.study.fragment_cases import NearestCase
 from core.study.record import Outcome
 from core.study.stability import FRAGMENT_EXPERIMENTS, experiments
 from core.study.workloads import flat_scene
+from tests.covering import every_nth
 
 
 @pytest.mark.parametrize(
-    "experiment", [each for each in FRAGMENT_EXPERIMENTS if each.can_shrink], ids=lambda each: each.name
+    "experiment",
+    every_nth([each for each in FRAGMENT_EXPERIMENTS if each.can_shrink], 3),
+    ids=lambda each: each.name,
 )
 def test_the_truth_of_any_such_scene_is_that_of_the_cell(experiment: Experiment) -> None:
     place = tuple(axis.values[len(axis.values) // 2] for axis in experiment.info.axes)

@@ -85,6 +85,7 @@ def test_undo_theme_and_presenter_work_on_every_page(window: MainWindow) -> None
     assert window.memory.preferences.theme == "dark"
 
 
+@pytest.mark.slow
 def test_help_lists_the_keys_of_the_page(window: MainWindow) -> None:
     def listed() -> str:
         QTest.keyClicks(window, "?")
@@ -106,6 +107,7 @@ def test_playing_ends_when_the_page_is_left(window: MainWindow) -> None:
     assert not window.page.timeline.is_playing()
 
 
+@pytest.mark.slow
 @pytest.mark.own_window
 def test_the_page_comes_back(window: MainWindow, qtbot: QtBot) -> None:
     window.pages.show_page("compare")

@@ -78,6 +78,7 @@ def test_both_depths_are_alike_and_lie_where_they_are_largest(window: MainWindow
         assert page.grid.placement().cell == pytest.approx(new_depths.placement().cell, rel=0.01), panes
 
 
+@pytest.mark.slow
 def test_no_tab_of_a_view_is_hidden_beside_a_pane(window: MainWindow) -> None:
     bar, application = window.page.main_area.view_bar, QApplication.instance()
     assert isinstance(application, QApplication)

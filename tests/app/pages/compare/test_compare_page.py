@@ -201,6 +201,7 @@ def test_the_whole_pipeline_is_measured_on_the_open_scene(
     assert window.session.document.scene is scene
 
 
+@pytest.mark.slow
 def test_the_controls_say_when_they_are_set_otherwise(page: ComparePage, qtbot: QtBot) -> None:
     measured(page, qtbot)
     assert "settings have changed" not in page.shown_text.text()

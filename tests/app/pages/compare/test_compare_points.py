@@ -58,6 +58,7 @@ def test_a_run_opens_on_the_step_page_and_undo_leads_back(
     assert window.session.document is before
 
 
+@pytest.mark.slow
 def test_the_pinned_pixel_is_where_stepping_begins(
     window: MainWindow, page: ComparePage, qtbot: QtBot
 ) -> None:

@@ -16,6 +16,7 @@ from core.records.steps import Level
 from lessons.exercises.question import ask, judge
 from lessons.exercises.screen import Screen, scene_name, screen_of, screen_template
 from lessons.scenes import make_scene
+from tests.covering import every_nth
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.question_view import QuestionView
 
@@ -82,7 +83,7 @@ def end_by_steps(window: MainWindow) -> None:
     window.session.step(1, Level.PIXEL)
 
 
-@pytest.mark.parametrize("look", [end_by_reveal, end_by_clicks, end_by_steps])
+@pytest.mark.parametrize("look", every_nth([end_by_reveal, end_by_clicks, end_by_steps], 3))
 def test_what_is_seen_while_predicting_earns_nothing(
     window: MainWindow, look: Callable[[MainWindow], None]
 ) -> None:

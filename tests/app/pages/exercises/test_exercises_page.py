@@ -83,6 +83,7 @@ def test_work_survives_leaving_and_the_program(page: Page, qtbot: QtBot) -> None
     other.stop()
 
 
+@pytest.mark.slow
 def test_a_variant_after_a_miss_tells_two_mistakes_apart(page: Page, monkeypatch: pytest.MonkeyPatch) -> None:
     """Seeds in which both mistakes give the same answer are passed over; without such a miss the first is taken."""
     pair = ("level-edges-never", "all-edges-exclusive")

@@ -44,6 +44,7 @@ def page(window: MainWindow) -> StabilityPage:
     return window.pages.current
 
 
+@pytest.mark.slow
 def test_one_line_for_each_method_and_zero_has_a_place(page: StabilityPage) -> None:
     page.take_saved(hand_made(), "gaps.json")
     QApplication.processEvents()

@@ -313,6 +313,7 @@ def test_the_dial_of_a_crack_reads_the_triangles_at_it(page: StabilityPage, qtbo
     assert sentence.endswith("0 times by fill_rule=exclusive (hole), and all formats with this rule.")
 
 
+@pytest.mark.slow
 def test_the_open_scene_is_counted(window: MainWindow, page: StabilityPage, qtbot: QtBot) -> None:
     page.show_named(OPEN_SCENE)
     page.choice.resolution = "coarse"

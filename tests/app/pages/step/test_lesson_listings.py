@@ -85,6 +85,7 @@ def test_a_step_names_the_buffer_of_a_and_b(window: MainWindow, qtbot: QtBot, tm
     assert window.page.compare_view.buffer_box.currentData() == "overdraw"
 
 
+@pytest.mark.slow
 def test_what_a_check_finds_stays_marked(
     window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -110,7 +111,6 @@ def test_what_a_check_finds_stays_marked(
     assert form.editor.has_problem
 
 
-@pytest.mark.slow
 @pytest.mark.own_window
 def test_next_keeps_its_place_below_a_listing_that_scrolls(window: MainWindow, qtbot: QtBot) -> None:
     window.resize(1280, 640)

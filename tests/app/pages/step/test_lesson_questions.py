@@ -171,6 +171,7 @@ def test_revealing_counts_as_seen(window: MainWindow, qtbot: QtBot, walk: Lesson
     assert kept(walk, window, qtbot)[-1].score == 0
 
 
+@pytest.mark.slow
 def test_p_ends_no_question_and_stepping_on_leaves_a_seen_step(
     window: MainWindow, qtbot: QtBot, walk: LessonWalk
 ) -> None:
@@ -208,6 +209,7 @@ def test_pixels_are_marked_on_the_page_s_picture(window: MainWindow, qtbot: QtBo
     assert window.page.main_view() is window.page.grid
 
 
+@pytest.mark.slow
 def test_a_question_asked_again_has_nothing_marked(window: MainWindow, qtbot: QtBot) -> None:
     window.page.lessons.open("pixel-centres", 2)
     walk = settled(window, qtbot)

@@ -187,6 +187,7 @@ def test_an_exercise_of_an_earlier_lesson_comes_first(
     assert not window.session.is_predicting
 
 
+@pytest.mark.slow
 def test_an_exercise_without_a_picture_has_none_and_names_its_lesson(
     window: MainWindow, qtbot: QtBot, tmp_path: Path
 ) -> None:

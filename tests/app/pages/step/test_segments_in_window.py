@@ -135,6 +135,7 @@ def test_a_typed_segment_is_stepped_in_six_actions_and_clipped_in_three_more(
     assert session.stage_trace.extra["outline_clip"].lines.is_kept.all()
 
 
+@pytest.mark.slow
 def test_clippers_of_rectangles_are_refused_for_a_polygon(window: MainWindow, qtbot: QtBot) -> None:
     open_scene(window, "polygon-window")
     (record,) = (r for r in settings_records(window.session.document) if r.family == "line_clipping")

@@ -203,6 +203,7 @@ def test_lanes_together_are_stepped_from_the_same_statement_on(lab):
     assert pane._lanes.currentData() == "one"
 
 
+@pytest.mark.slow
 def test_fragments_that_wait_or_were_discarded_are_marked(lab, qtbot):
     lab.session.open(focus_on(open_any("cube").document, 3))
     lab.session.set_stage("shade")
@@ -329,6 +330,7 @@ def test_shaders_stay_on_another_scene_or_say_why_not(lab, qtbot):
     assert _program(lab) is None
 
 
+@pytest.mark.slow
 def test_a_variable_without_a_value_is_told(lab, qtbot):
     lab.session.set_stage("shade")
     text = TASK_FRAGMENT.replace("outColor = vec4(", "vec3 k;\n   outColor = vec4(k + ")
@@ -362,6 +364,7 @@ def test_a_text_that_does_not_run_is_kept_in_the_state(lab, qtbot):
     assert _program(lab).fragment == TASK_FRAGMENT
 
 
+@pytest.mark.slow
 def test_undo_in_the_editor_goes_back_over_a_preset(lab, qtbot):
     pane, before = lab.page.shader_pane, _program(lab)
     _choose(pane._preset, "toon")

@@ -203,6 +203,7 @@ def test_a_key_flips_both_pictures_while_it_is_held(window: MainWindow) -> None:
     assert [grid.buffer() for grid in view.grids[:2]] == [first, second]
 
 
+@pytest.mark.slow
 def test_the_first_divergence_is_reached_in_both(window: MainWindow, qtbot: QtBot) -> None:
     window.session.open(open_document(make_scene("single-triangle"), "One"))
     window.page.comparing.set_differences({"interpolation": "affine"})

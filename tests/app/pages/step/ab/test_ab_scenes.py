@@ -48,6 +48,7 @@ def test_b_is_forgotten_where_it_has_no_effect(window: MainWindow) -> None:
     assert comparing.other.line != window.session.document.settings.line, "it follows the stage"
 
 
+@pytest.mark.slow
 def test_what_b_shows_stays_in_later_stages_where_it_differs(window: MainWindow) -> None:
     comparing = compared(window, "textured-floor", "interpolate").page.comparing
     assert comparing.other.interpolation == "affine"
@@ -124,6 +125,7 @@ def test_an_edit_leaves_a_printed_b(window: MainWindow) -> None:
     assert comparing.other.replacements == {}
 
 
+@pytest.mark.slow
 def test_a_mistake_in_the_scene_stays_beside_its_scene_only(window: MainWindow, qtbot: QtBot) -> None:
     document = opened("single-triangle")
     window.session.open(document)

@@ -17,6 +17,7 @@ from core.records.listing import Operation
 from core.records.steps import Level, Steps, ends_of
 from core.trace.stage_trace import StageTrace
 from lessons.scenes import make_scene
+from tests.covering import every_nth
 
 ROWS = st.lists(st.tuples(st.integers(0, 2), st.integers(-1, 3), st.sampled_from("st")), max_size=12)
 """Of each row triangle, column of the pixel, and kind."""
@@ -91,12 +92,15 @@ def test_both_reach_all_their_steps_and_move_together_only_about_the_same(
 
 @pytest.mark.parametrize(
     ("name", "other"),
-    [
-        ("shared-edge", {"fill": "hierarchy"}),
-        ("shared-edge", {"polygon_mode": "wireframe"}),
-        ("segment", {"line": "gupta-sproull"}),
-        ("intersecting", {"visibility": "painters"}),
-    ],
+    every_nth(
+        [
+            ("shared-edge", {"fill": "hierarchy"}),
+            ("shared-edge", {"polygon_mode": "wireframe"}),
+            ("segment", {"line": "gupta-sproull"}),
+            ("intersecting", {"visibility": "painters"}),
+        ],
+        2,
+    ),
 )
 def test_the_laws_hold_in_every_stage(name: str, other: dict[str, str]) -> None:
     document = open_document(make_scene(name), name)
