@@ -127,6 +127,7 @@ def test_old_python_can_read_the_file() -> None:
     assert imported == ["import sys", "from enum import IntEnum"]
 
 
+@pytest.mark.slow
 def test_a_real_old_python_says_so() -> None:
     candidates = [shutil.which(f"python3.{minor}") for minor in range(6, 11)]
     old = [path for path in candidates if path and subprocess.run([path, "-c", ""]).returncode == 0]

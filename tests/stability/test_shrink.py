@@ -13,7 +13,6 @@ from core.study.experiment import SEGMENTS, TRIANGLES, first_edge, scene_of_segm
 from core.study.record import Outcome, StudyCancelledError, Verdict
 from core.study.stability import experiments
 from core.study.stress import shrink_cell
-from tests.covering import every_nth
 from tests.stability.shrunk_tests import run_test, shrunk_of
 
 CASES = [
@@ -53,7 +52,7 @@ PAIRS |= {"drawing-order", "blending-order"}
 
 @pytest.mark.parametrize(
     ("name", "method", "place", "right"),
-    [*every_nth(CASES, 2), *(pytest.param(*case, marks=pytest.mark.slow) for case in MORE_CASES)],
+    [*CASES, *(pytest.param(*case, marks=pytest.mark.slow) for case in MORE_CASES)],
 )
 def test_what_is_left_is_small_fails_alike_and_its_test_holds_for_a_method_that_is_right(
     name: str, method: str, place: tuple[float, ...], right: str

@@ -16,7 +16,6 @@ from core.fast_path.workers.sharing import Sharing
 from core.scene import Camera
 from core.transform.matrices import projection, world_to_camera
 from lessons import shapes
-from tests.covering import every_nth
 
 
 def small_sphere(is_per_pixel: bool, columns: int = 24) -> records.ViewedMesh:
@@ -60,19 +59,17 @@ def drawn(module, work: records.Work) -> Difference:
 
 @pytest.mark.parametrize(
     "work",
-    every_nth(
-        [
-            records.large_triangle(((255, 40, 20),) * 3),
-            records.large_triangle(((255, 40, 20), (20, 250, 60), (30, 80, 240))),
-            records.random_triangles(1, 300, (64, 48), 40.0),
-            records.random_triangles(2, 100, (64, 48), 40.0, is_blended=True),
-            small_sphere(is_per_pixel=False),
-            small_sphere(is_per_pixel=True),
-            small_floor(),
-            some_lines(),
-        ],
-        2,
-    ),
+    [
+        records.large_triangle(((255, 40, 20),) * 3),
+        records.large_triangle(((255, 40, 20), (20, 250, 60), (30, 80, 240))),
+        records.random_triangles(1, 300, (64, 48), 40.0),
+        records.random_triangles(2, 100, (64, 48), 40.0, is_blended=True),
+        small_sphere(is_per_pixel=False),
+        small_sphere(is_per_pixel=True),
+        small_floor(),
+        some_lines(),
+    ],
+    ids=["flat", "gouraud", "random", "blended", "mesh", "phong", "floor", "lines"],
 )
 def test_the_core_draws_the_reference(work: records.Work) -> None:
     assert drawn(ours, work) == Difference(0, 0)

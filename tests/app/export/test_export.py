@@ -78,6 +78,7 @@ def test_a_png_is_what_is_seen(grid, tmp_path):
     assert QImage(str(tmp_path / "b.PNG")).size() == grid.size() * 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", [GridView(), GridView(0.3, 0.4, 3.3)], ids=["whole", "zoomed"])
 def test_an_svg_of_a_grid_shows_the_same_cells(grid, tmp_path, view):
     grid.set_view(view)

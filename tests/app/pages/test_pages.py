@@ -22,6 +22,7 @@ from lessons.scenes import built_in_scene, make_scene
 pytestmark = pytest.mark.shared_window
 
 
+@pytest.mark.slow
 @pytest.mark.own_window
 def test_a_click_in_the_bar_shows_a_page_that_is_made_only_then(window: MainWindow) -> None:
     assert [type(page).__name__ for page in window.pages.made] == ["StepPage"]

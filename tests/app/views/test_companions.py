@@ -25,6 +25,7 @@ from widgets.space.view import SpaceView
 pytestmark = pytest.mark.shared_window
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("scene", "beside"),
     [("cube", {"transform", "cull", "depth"}), ("textured-floor", {"transform", "cull", "shade", "depth"})],

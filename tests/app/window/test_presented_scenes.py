@@ -125,7 +125,6 @@ def test_a_b_has_the_whole_width(presented: MainWindow) -> None:
     assert "inspector" in page.shown_panes()
 
 
-@pytest.mark.slow
 def test_pages_scroll_where_large_type_has_no_room(presented: MainWindow) -> None:
     for name in ("compare", "stability"):
         presented.pages.show_page(name)
@@ -233,7 +232,6 @@ def test_f5_measures_on_compare(presented: MainWindow) -> None:
     assert presented.pages.current is page
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("size", SIZES, ids=str)
 def test_flow_grows_and_is_seen_whole(presented: MainWindow, size: tuple[int, int]) -> None:
     presented.page.show_view("flow")

@@ -94,7 +94,6 @@ def test_leaving_brings_the_window_back(window: MainWindow, qtbot: QtBot, theme:
     qtbot.waitUntil(lambda: desk() == before)
 
 
-@pytest.mark.slow
 def test_a_table_of_depths_has_large_numbers_or_stands_alone(window: MainWindow) -> None:
     scene = ALL_SCENES["jubair-z-buffer"]
     window.session.open(open_document(scene.make(), scene.title))
@@ -267,7 +266,6 @@ TABLES = [
 ]
 
 
-@pytest.mark.slow
 @in_turns(size=SIZES if is_everything() else SIZES[:1], table=TABLES if is_everything() else TABLES[::3])
 def test_tables_are_seen_whole(window: MainWindow, size: tuple[int, int], table: tuple[str, str]) -> None:
     scene, stage = table

@@ -169,6 +169,7 @@ def test_the_timeline_is_a_slider(window: MainWindow) -> None:
     assert window.session.cursor.position == 17
 
 
+@pytest.mark.slow
 def test_a_question_is_announced_after_the_step_it_follows(
     window: MainWindow, heard: Heard, qtbot: QtBot
 ) -> None:

@@ -147,6 +147,7 @@ def test_dark_and_light_take_turns(window: MainWindow) -> None:
     apply_theme(application, LIGHT)
 
 
+@pytest.mark.slow
 @pytest.mark.own_window
 def test_after_a_click_and_another_view_the_arrows_go_on_stepping(window: MainWindow, qtbot: QtBot) -> None:
     window.activateWindow()

@@ -17,7 +17,7 @@ from core.methods import table
 from lessons.scenes import make_scene
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.trace_cases import EACH_METHOD, SCENES, name_of, settings_of
-from tests.covering import in_turn
+from tests.covering import every_nth, in_turn
 
 SAMPLED = [
     {family: name for family, name in each.items() if family != "antialiasing"} for each in EACH_METHOD
@@ -34,7 +34,7 @@ def is_like_the_plain_one(scene, settings, encoding="srgb") -> bool:
 NAMES = list(product(["lit", "clip", "orthographic", "textured-clip", "intersecting"], ["box", "tent"]))
 
 
-@pytest.mark.parametrize(("shown", "choice"), in_turn(NAMES, SAMPLED), ids=name_of)
+@pytest.mark.parametrize(("shown", "choice"), every_nth(in_turn(NAMES, SAMPLED), 2), ids=name_of)
 def test_every_choice_has_the_bytes_of_the_plain_way(shown, choice):
     name, resolve_filter = shown
     scene = SCENES[name]
@@ -51,7 +51,7 @@ def test_every_choice_has_the_bytes_of_the_plain_way(shown, choice):
     assert picture.route.visibility == ("frame" if is_plain else "multisampled")
 
 
-@pytest.mark.parametrize("encoding", ["srgb", "linear"])
+@pytest.mark.parametrize("encoding", every_nth(["srgb", "linear"], 2))
 @pytest.mark.parametrize("shading", table.names("shading"))
 @pytest.mark.parametrize("name", ["torus", "cube"])
 def test_meshes_have_the_bytes_of_the_plain_way(name, shading, encoding):

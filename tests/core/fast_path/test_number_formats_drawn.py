@@ -9,7 +9,7 @@ from core.framebuffer.display import to_display
 from core.methods import table
 from core.pixel_history import why
 from tests.core.strategies import clip_of_window
-from tests.covering import in_turn
+from tests.covering import every_nth, in_turn
 
 SIZE = (300, 40)
 SPANS = ("snapped", "float64")
@@ -49,7 +49,7 @@ def test_whole_numbers_have_clipping_inserted_where_a_corner_is_behind_the_eye(c
     assert frame.statistics["clip"].note == coverage
 
 
-@pytest.mark.parametrize("fill", ["spans", "incremental"])
+@pytest.mark.parametrize("fill", every_nth(["spans", "incremental"], 2))
 @pytest.mark.parametrize("coverage", table.names("coverage"))
 def test_the_history_of_a_pixel_ends_with_what_the_picture_shows(coverage: str, fill: str) -> None:
     settings = Settings(coverage=coverage, fill=fill)

@@ -6,7 +6,7 @@ import pytest
 from core import Camera, DirectionalLight, Frame, Mesh, Scene, Settings, draw_picture, render
 from lessons.shapes import cube, floor, knot, sphere, torus
 from tests.core.fast_path.references import exact_bytes, shows_thin_triangle
-from tests.covering import in_turn, is_everything
+from tests.covering import every_nth, in_turn, is_everything
 
 MESHES = {
     "cube": cube(1.5),
@@ -36,7 +36,7 @@ def assert_equal_frames(frame: Frame, usual: Frame) -> None:
         assert np.array_equal(getattr(frame, buffer), getattr(usual, buffer)), buffer
 
 
-@pytest.mark.parametrize("name", list(MESHES))
+@pytest.mark.parametrize("name", every_nth(list(MESHES), 3))
 def test_spans_draw_the_same_triangles(name: str) -> None:
     for turn in range(8) if is_everything() else (0, 3):
         scene = seen_from(MESHES[name], turn)
@@ -46,7 +46,9 @@ def test_spans_draw_the_same_triangles(name: str) -> None:
             assert_equal_frames(frame, render(scene, Settings(**chosen)))
 
 
-@pytest.mark.parametrize(("shading", "name"), in_turn(["phong", "gouraud", "flat", "unlit"], list(MESHES)))
+@pytest.mark.parametrize(
+    ("shading", "name"), every_nth(in_turn(["phong", "gouraud", "flat", "unlit"], list(MESHES)), 3)
+)
 def test_pictures_have_the_bytes_of_the_buffers(name: str, shading: str) -> None:
     for turn, depth in ((0, "z-float32"), (3, "fixed-38")):
         scene = seen_from(MESHES[name], turn)

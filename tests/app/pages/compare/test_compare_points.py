@@ -41,6 +41,7 @@ def test_a_point_opens_its_picture_the_reference_and_the_difference(page: Compar
     assert page.pictures.isVisible()
 
 
+@pytest.mark.slow
 def test_a_run_opens_on_the_step_page_and_undo_leads_back(
     window: MainWindow, page: ComparePage, qtbot: QtBot
 ) -> None:
@@ -58,7 +59,6 @@ def test_a_run_opens_on_the_step_page_and_undo_leads_back(
     assert window.session.document is before
 
 
-@pytest.mark.slow
 def test_the_pinned_pixel_is_where_stepping_begins(
     window: MainWindow, page: ComparePage, qtbot: QtBot
 ) -> None:

@@ -36,7 +36,6 @@ def test_a_study_is_mapped_over_a_dial_and_opens_again_with_its_times(tmp_path: 
         assert (each.seconds > 0).all()
 
 
-@pytest.mark.slow
 def test_the_pipeline_takes_a_scene_and_settings(tmp_path: Path) -> None:
     run = run_program(
         *(
@@ -47,7 +46,7 @@ def test_the_pipeline_takes_a_scene_and_settings(tmp_path: Path) -> None:
             "--set",
             "shading=flat",
             "--dial",
-            "scale=0.5",
+            "scale=0.25",
             *QUICK,
         ),
         *("-o", tmp_path),

@@ -216,7 +216,7 @@ def test_a_verdict_is_that_of_the_answer_that_was_checked(page: ExercisesPage) -
     assert len(student.kept) == 2
 
 
-@pytest.mark.parametrize("count", [30, pytest.param(10_000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [60, pytest.param(10_000, marks=pytest.mark.slow)])
 def test_verdict_attempt_and_question_belong_together(page: ExercisesPage, count: int) -> None:
     student = Student(page, 32)
     for _ in range(count):

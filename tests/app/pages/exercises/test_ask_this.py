@@ -8,8 +8,8 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.files.user_folders import attempt_file
+from app.pages.cover import COVERED
 from app.pages.exercises.page import ExercisesPage
-from app.pages.page_bar import COVERED
 from app.window.main_window import MainWindow
 from core import Settings
 from core.records.steps import Level

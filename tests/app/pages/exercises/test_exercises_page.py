@@ -111,6 +111,7 @@ def test_a_variant_after_a_miss_tells_two_mistakes_apart(page: Page, monkeypatch
     assert shown.question.seed == apart
 
 
+@pytest.mark.slow
 def test_outlines_have_the_names_of_the_question(page: Page) -> None:
     shown = page("facing")
     geometry = shown.grid._geometry

@@ -135,6 +135,7 @@ def test_a_buffer_that_is_alone_is_shown_once(window: MainWindow) -> None:
     assert page.strip.isVisible()
 
 
+@pytest.mark.slow
 def test_shown_panes_and_widths_come_back(window: MainWindow, qtbot: QtBot) -> None:
     page = window.page
     page.show_panes(["overlays", "thumbnails"])

@@ -194,6 +194,7 @@ def test_every_view_shows_a_table_at_every_stage(editing: MainWindow) -> None:
     page.show_view("pixels")
 
 
+@pytest.mark.slow
 def test_the_history_of_a_cell_tells_of_patches_alone(editing: MainWindow) -> None:
     source = editing.session.trace.source
     story, _ = story_of(source, 1, 4)

@@ -111,6 +111,7 @@ def test_the_first_difference_is_one_click_away(window: MainWindow) -> None:
     assert mine != other.pixel
 
 
+@pytest.mark.slow
 def test_the_inspector_steps_through_the_lines_of_b(window: MainWindow) -> None:
     bresenham(window)
     editor = edit(window, "D = 2 * dy - dx")
@@ -335,6 +336,7 @@ def test_a_long_run_leaves_the_window_free_and_escape_ends_it(
     window.page.editing.show_drafts([])
 
 
+@pytest.mark.slow
 def test_an_edit_that_is_a_mistake_of_the_shelf_is_named(window: MainWindow) -> None:
     window.session.open(open_any("shared-edge").document)
     window.session.set_stage("raster", 4000)

@@ -161,6 +161,7 @@ def test_a_clicker_goes_back_to_the_end_of_the_lesson_before(window: MainWindow,
     assert (walk.lesson.name, walk.number) == ("pixel-centres", 0)
 
 
+@pytest.mark.slow
 def test_revealing_counts_as_seen(window: MainWindow, qtbot: QtBot, walk: LessonWalk) -> None:
     QTest.keyClick(window, Qt.Key.Key_M, Qt.KeyboardModifier.ControlModifier)
     settled(window, qtbot)

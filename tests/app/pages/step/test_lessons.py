@@ -84,6 +84,7 @@ def test_keys_and_dots_go_through_a_lesson(window: MainWindow, qtbot: QtBot, tmp
     assert any(button.text().startswith("Exercise: ") for button in buttons)
 
 
+@pytest.mark.slow
 def test_wandering_off_costs_nothing(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
     walk = opened(window, qtbot, tmp_path)
     session, home = window.session, window.session.cursor
@@ -264,6 +265,7 @@ def test_a_message_leaves_the_lesson_readable(
     assert not message.intersects(lesson)
 
 
+@pytest.mark.slow
 def test_no_step_stands_beside_a_whole_picture_and_a_listing_that_is_typed(
     window: MainWindow, qtbot: QtBot
 ) -> None:

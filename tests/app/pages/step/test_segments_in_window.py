@@ -88,6 +88,7 @@ def test_families_of_areas_say_why_they_do_nothing(window: MainWindow) -> None:
     assert reasons["line"] == reasons["line_clipping"] == ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("clipper", every_nth(["Cohen-Sutherland", "Liang-Barsky", "Cyrus-Beck"], 3))
 def test_a_typed_segment_is_stepped_in_six_actions_and_clipped_in_three_more(
     window: MainWindow, qtbot: QtBot, clipper: str

@@ -166,6 +166,7 @@ def test_a_preset_and_its_uniforms(lab, qtbot):
     qtbot.waitUntil(lambda: _program(lab) is None)
 
 
+@pytest.mark.slow
 def test_other_shaders_leave_the_steps_at_their_pixel(lab, qtbot):
     session = lab.session
     session.set_stage("shade", 0)
@@ -221,6 +222,7 @@ def test_fragments_that_wait_or_were_discarded_are_marked(lab, qtbot):
     assert lines[min(lines)] == 1
 
 
+@pytest.mark.slow
 def test_methods_say_that_a_shader_lights_the_scene(lab):
     lab.page.show_panes(("methods", "inspector"))
     combo = lab.page.settings_panel.combo("shading")

@@ -76,6 +76,7 @@ def test_the_item_of_a_step_is_marked_in_the_view_that_shows_its_stage(window: M
     assert unmarked == []
 
 
+@pytest.mark.slow
 def test_outlines_appear_as_corners_reach_the_window_and_vanish_as_triangles_are_dropped(
     window: MainWindow,
 ) -> None:

@@ -58,6 +58,7 @@ def test_a_pixel_found_outside_differs_from_none_not_reached() -> None:
     assert compare(*sides)[2].sentence == "0 of 3 pixels differ."
 
 
+@pytest.mark.slow
 def test_one_key_shows_both_and_the_pixels_again(window: MainWindow) -> None:
     QTest.keyClick(window, Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier)
     view = window.page.compare_view
@@ -143,6 +144,7 @@ def test_what_the_screen_shows_is_compared_first(window: MainWindow) -> None:
     assert window.page.compare_view.buffer_box.currentData() == "screen"
 
 
+@pytest.mark.slow
 def test_two_depth_formats_are_compared_in_what_both_hold(window: MainWindow) -> None:
     window.session.open(open_document(make_scene("z-fighting"), "Plates"))
     window.session.set_stage("depth")
@@ -152,6 +154,7 @@ def test_two_depth_formats_are_compared_in_what_both_hold(window: MainWindow) ->
     assert shown.values.any()
 
 
+@pytest.mark.slow
 def test_both_stand_at_the_same_pixel_and_steps_are_undone(window: MainWindow) -> None:
     session, comparing = window.session, window.page.comparing
     session.open(open_document(make_scene("shared-edge"), "Two"))

@@ -88,6 +88,7 @@ def test_undoing_an_opened_scene_forgets_what_has_no_effect_in_the_other(window:
     assert dict(comparing.differences) == {}
 
 
+@pytest.mark.slow
 def test_b_stays_as_chosen_in_every_stage(window: MainWindow) -> None:
     comparing = compared(window, "shared-edge", fill="scanline-lecture").page.comparing
     for stage in STAGES:
@@ -110,6 +111,7 @@ def test_another_scene_is_shown_as_a_whole_in_all_pictures(window: MainWindow) -
     assert view.grids[2].view() == zoomed, "an edit leaves the zoom"
 
 
+@pytest.mark.slow
 def test_an_edit_leaves_a_printed_b(window: MainWindow) -> None:
     window.session.open(opened("pellacini-line"))
     comparing = window.page.comparing
