@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 import app.pages
-from app.files.preferences import Preferences, load_preferences
+from app.files.preferences import Preferences
 from app.pages.page_bar import StepRequest
 from app.session.document import open_document
 from app.window.main_window import MainWindow
@@ -106,21 +106,6 @@ def test_playing_ends_when_the_page_is_left(window: MainWindow) -> None:
     window.page.stepping.toggle_play()
     window.pages.show_page("compare")
     assert not window.page.timeline.is_playing()
-
-
-@pytest.mark.slow
-@pytest.mark.own_window
-def test_the_page_comes_back(window: MainWindow, qtbot: QtBot) -> None:
-    window.pages.show_page("compare")
-    window.close()
-    kept = load_preferences()[0]
-    assert kept.page == "compare"
-    scene = built_in_scene("single-triangle")
-    again = MainWindow(open_document(scene.make(), scene.title), kept)
-    qtbot.addWidget(again)
-    again.memory.restore(again)
-    assert again.pages.current_name == "compare"
-    again.close()
 
 
 def test_a_page_that_is_gone_is_the_step_page(qtbot: QtBot) -> None:

@@ -14,7 +14,6 @@ from app.pages.compare.charts import TIME
 from app.pages.compare.jobs import measured as measured_on
 from app.pages.compare.page import ComparePage
 from app.window.main_window import MainWindow
-from core.study.families import study_families
 from core.study.speed_accuracy import measure
 from tests.app.pages.compare.compare_pages import WRONG, compare_page, hand_made, measured
 from widgets.basics.theme import LIGHT, current_theme
@@ -25,13 +24,6 @@ pytestmark = pytest.mark.shared_window
 @pytest.fixture
 def page(window: MainWindow) -> ComparePage:
     return compare_page(window)
-
-
-@pytest.mark.slow
-def test_every_family_of_the_core_is_offered(page: ComparePage) -> None:
-    titles = [page.entries.item(row).text() for row in range(page.entries.count())]
-    assert len(titles) == len(study_families())
-    assert titles[0] == "Whole pipeline on the open scene"
 
 
 @pytest.mark.own_window

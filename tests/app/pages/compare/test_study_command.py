@@ -46,7 +46,7 @@ def test_the_pipeline_takes_a_scene_and_settings(tmp_path: Path) -> None:
             "--set",
             "shading=flat",
             "--dial",
-            "scale=0.25",
+            "scale=0.5",
             *QUICK,
         ),
         *("-o", tmp_path),

@@ -85,14 +85,6 @@ def another_scene(window: MainWindow) -> None:
     window.session.edit(replace(document, scene=scene, title="Another"))
 
 
-@pytest.mark.slow
-def test_the_page_is_reached_from_step_and_compare(window: MainWindow) -> None:
-    for start in ("step", "compare"):
-        window.pages.show_page(start)
-        window.menus.actions_by_name["page_plan"].trigger()
-        assert window.pages.current_name == "plan"
-
-
 def test_it_looks_at_a_scene_by_itself_and_measures_when_it_is_asked_to(page: PlanPage, qtbot: QtBot) -> None:
     assert "What does this scene need?" in page.controls.intro.text()
     assert page.rows.empty.isVisible()

@@ -8,6 +8,7 @@ import pytest
 from app.views.stage_views import COMPUTED, chapters_of, traced_counts
 from core import STAGES, ClipScene, Settings, trace
 from lessons.scenes import make_scene
+from tests.covering import in_turns
 from widgets.timeline.chapters import Chapter, ChapterState
 
 
@@ -36,9 +37,10 @@ def test_a_part_behind_the_eye_is_named_where_nothing_is_clipped(name: str, is_b
     assert ("behind the eye" in chapters_by_stage(name)["clip"].reason) == is_behind
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("antialiasing", ["none", "msaa-4", "ssaa-4", "area"])
-@pytest.mark.parametrize("more", [{}, {"polygon_mode": "wireframe"}, {"visibility": "painters"}], ids=str)
+@in_turns(
+    antialiasing=["none", "msaa-4", "ssaa-4", "area"],
+    more=[{}, {"polygon_mode": "wireframe"}, {"visibility": "painters"}],
+)
 def test_the_rail_counts_the_rows(antialiasing: str, more: dict[str, str]) -> None:
     """Triangles hide each other: what is shaded before the depth test is counted, too."""
     run = trace(make_scene("intersecting"), Settings(antialiasing=antialiasing, **more))

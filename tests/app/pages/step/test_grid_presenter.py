@@ -12,15 +12,15 @@ from app.session.moment import Change
 from app.window.main_window import MainWindow
 from core import STAGES, ClipScene
 from lessons.scenes import make_scene
+from tests.covering import every_nth
 from widgets.grid.layers import MaskOverlay
 
 pytestmark = pytest.mark.shared_window
 
 
-@pytest.mark.slow
 def test_tiles_show_the_arrays_of_the_trace(window: MainWindow) -> None:
     window.page.toggle_pane("thumbnails")
-    for stage in STAGES:
+    for stage in every_nth(STAGES, 3):
         session = window.session
         session.set_stage(stage)
         session.go_to(session.stage_trace.steps.count // 2)

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
@@ -82,31 +82,6 @@ def test_without_a_refuting_step_the_run_with_the_mistake_stands_beside(
     walk.task.reveal()
     assert window.page.current_view() == "compare"
     assert "all edges inclusive" in window.page.compare_view.linked.titles[1].text()
-
-
-@pytest.mark.slow
-def test_check_and_next_keep_their_place(window: MainWindow, qtbot: QtBot, walk: LessonWalk) -> None:
-    view, places = walk.view, []
-    for given in (None, 25, 3, 16):
-        if given is not None:
-            answered(walk, qtbot, given)
-            settled(window, qtbot)
-        places.append((view.check_button.y(), view.next_button.y()))
-    assert places == places[:1] * 4
-
-
-@pytest.mark.slow
-def test_next_keeps_its_place_when_marked_pixels_are_right(
-    window: MainWindow, qtbot: QtBot, tmp_path: Path
-) -> None:
-    long = "Mark the pixels of triangle 0, and of it alone, as long as a line of this pane is."
-    walk = opened(window, qtbot, tmp_path, 2, GOOD.replace("Mark the pixels of triangle 0.", long))
-    before = walk.view.next_button.mapTo(window, QPoint())
-    walk.answers.fill(walk.answers.asked.question.draft.answer.reference)
-    walk.answers.check()
-    settled(window, qtbot)
-    assert walk.standings[2] is DONE
-    assert walk.view.next_button.mapTo(window, QPoint()) == before
 
 
 @pytest.mark.slow

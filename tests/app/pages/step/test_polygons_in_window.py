@@ -46,18 +46,6 @@ def test_every_view_shows_a_polygon(window: MainWindow) -> None:
     assert window.page.grids.geometry.rings == (0, 7, 11)
 
 
-@pytest.mark.slow
-@pytest.mark.own_window
-def test_a_table_below_leaves_the_picture_most_of_the_height(window: MainWindow) -> None:
-    open_scene(window, "polygon-holes")
-    window.session.set_stage("raster", 300)
-    window.page.settle()
-    area = window.page.main_area
-    assert area.beside.isVisible()
-    if area.beside.y() > 0:
-        assert area.grid.height() >= 0.55 * area.both_sides.height()
-
-
 def test_a_corner_is_dragged_and_typed_and_rings_stay(window: MainWindow) -> None:
     open_scene(window, "polygon-holes")
     window.page.grid.vertex_dragged.emit(8, 20.0, 18.0)

@@ -13,7 +13,6 @@ from app.session.document import open_document
 from app.views.stage_views import chapters_of
 from app.window.main_window import MainWindow
 from core import STAGES
-from core.records.steps import Level
 from core.scene import ClipScene
 from lessons.scenes import make_scene
 from tests.covering import every_nth
@@ -47,25 +46,6 @@ def test_every_end_has_a_handle_that_moves_it(window: MainWindow, name: str, han
     assert moved.clip[0, 0, :2] == pytest.approx(scene.clip[0, 0, :2] + 2 * np.array([1.0, 2.0]) / scene.size)
     window.session.undo()
     assert window.session.document.scene is scene
-
-
-@pytest.mark.slow
-def test_right_goes_from_stage_to_stage_and_left_back(window: MainWindow) -> None:
-    open_scene(window, "segment")
-    session = window.session
-    session.set_stage("transform", 0)
-    session.set_level(Level.STAGE)
-    reached = []
-    for direction in (1, -1):
-        for _ in range(2 * len(STAGES)):
-            before = session.cursor
-            session.step(direction)
-            reached.append(session.cursor.stage)
-            if session.cursor == before:
-                break
-    assert set(reached) == set(STAGES) - {"edges", "bin"}
-    assert session.cursor.stage == "transform"
-    assert session.cursor.position == 0
 
 
 def test_stages_of_areas_are_skipped_with_a_reason(window: MainWindow) -> None:
