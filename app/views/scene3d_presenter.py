@@ -33,6 +33,7 @@ from app.views.view_space import (
     move_corner_to,
     step_marks,
 )
+from core.families import mirrors_of
 from core.fast_path.workers.band_workers import BandWorkers
 from core.records.arrays import Integers
 from core.records.words import counted, nouns
@@ -308,6 +309,7 @@ class Scene3dPresenter(QObject):
             parts.append("Click a {one}, or press F, to go into it. Shift+F comes back.")
         elif isinstance(document.scene, Scene):
             parts.append("Camera and view volume are drawn as lines, the near plane thick.")
+            parts.append("Mirrors have their own colour here." if mirrors_of(document.scene) else "")
         else:
             parts.append("Given in clip space: the box is the view volume, its near face in front.")
         if self.focus is not None:

@@ -52,7 +52,10 @@ def why_nothing_hides(settings: Settings) -> str:
     if resolved.is_mixed:
         return "Colours are blended, so what lies behind may show through."
     if not resolved.samples_centers:
-        return "Pixels have samples beside their centres, and the pyramid knows the depth at centres only."
+        sampled = (
+            "Pixels get their covered area" if resolved.sampling.is_area else "Samples lie beside the centres"
+        )
+        return f"{sampled}, and the pyramid knows the depth at centres only."
     if not resolved.numbers.suits_spans or "projected" in table.get("fill", resolved.fill_name).needs:
         return "These edge functions or this fill may cover pixels beside a triangle."
     return ""

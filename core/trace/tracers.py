@@ -271,8 +271,10 @@ def trace_stage(source: TraceSource, name: str) -> StageTrace:
 
 def _traced(source: TraceSource, name: str) -> StageTrace:
     antialiasing = source.settings.antialiasing
-    if name == "resolve" or antialiasing == Settings.antialiasing:
+    is_single = resolve(source.settings).sampling.count == 1
+    # Culling says why nothing is an occluder: where pixels are sampled decides that.
+    if name == "resolve" or antialiasing == Settings.antialiasing or (is_single and name == "cull"):
         return tracer_of(name)(source)
-    if resolve(source.settings).sampling.count == 1:
+    if is_single:
         return tracer_of(name)(replace(source, settings=resolve(source.settings).of_one_sample))
     return trace_samples(source, name, tracer_of(name))

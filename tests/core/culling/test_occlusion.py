@@ -167,7 +167,8 @@ def test_no_fragment_of_a_box_is_nearer_or_elsewhere_than_its_box_says(
         ({"blend": "over"}, "blended"),
         ({"visibility": "painters"}, "tests no depth"),
         ({"polygon_mode": "wireframe"}, "no area"),
-        ({"antialiasing": "msaa-4"}, "beside their centres"),
+        *(({"antialiasing": name}, "beside the centres") for name in ("msaa-4", "ssaa-4", "temporal")),
+        ({"antialiasing": "area"}, "covered area"),
         ({"coverage": "float16"}, "beside a triangle"),
         ({"fill": "scanline-lecture"}, "beside a triangle"),
     ],
@@ -177,6 +178,9 @@ def test_where_what_is_behind_may_be_seen_there_are_no_occluders(chosen: dict[st
     found = culled(scene, picked).occlusion
     assert why in found.why_none
     assert not found.tests.is_hidden.any()
+    told = trace(scene, picked).stage("cull")
+    [row] = np.flatnonzero(told.steps.kind == told.steps.kinds.index("no-occluder"))
+    assert told.columns["why_none"][row] == found.why_none
     assert planned_passes(scene, picked) == ()
     assert same_picture(scene, picked)
 
