@@ -80,6 +80,8 @@ QMenu::indicator { margin-left: ${u}px; }
 
 QAbstractItemView { background: $panel; alternate-background-color: $window; border: none; outline: none; }
 QAbstractItemView:focus { border: 2px solid $focus; }
+QTableView, QTreeView { border: 2px solid transparent; }
+QTableView:focus, QTreeView:focus { border-color: $focus; }
 QAbstractItemView::item { border: 1px solid transparent; border-width: 1px 0; }
 QAbstractItemView::item:selected { background: $selection; color: $text; border-color: $text; }
 QHeaderView::section { background: $panel; color: $muted_text; border: none; padding: ${u}px; }

@@ -4,7 +4,14 @@ from dataclasses import FrozenInstanceError
 import pytest
 from PySide6.QtCore import QObject
 from PySide6.QtGui import QColor, QPalette
-from PySide6.QtWidgets import QApplication, QCheckBox
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QApplication,
+    QCheckBox,
+    QTableWidget,
+    QTreeWidget,
+    QTreeWidgetItem,
+)
 
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import (
@@ -101,3 +108,26 @@ def test_figures_are_tabular(qapp: QApplication) -> None:
     font = text_font(LIGHT)
     assert font.pixelSize() == 13
     assert text_font(LIGHT, 9).pixelSize() == 9
+
+
+@pytest.mark.parametrize("kind", [QTableWidget, QTreeWidget])
+def test_no_row_covers_the_frame_of_the_focus(
+    styled: QApplication, qtbot, kind: type[QAbstractItemView]
+) -> None:
+    apply_theme(styled, LIGHT)
+    view = kind()
+    qtbot.addWidget(view)
+    view.setAlternatingRowColors(True)
+    if isinstance(view, QTableWidget):
+        view.setRowCount(3)
+        view.setColumnCount(1)
+    else:
+        view.addTopLevelItems([QTreeWidgetItem(["a row"]) for _ in range(3)])
+    view.show()
+    view.setFocus()
+    qtbot.waitUntil(view.hasFocus)
+    picture = view.grab().toImage()
+    sides = {
+        picture.pixelColor(x, y).name() for x in (0, picture.width() - 1) for y in range(picture.height())
+    }
+    assert sides == {LIGHT.focus}
