@@ -313,6 +313,7 @@ class FileActions(QObject):
         """Show what was opened: a scene at its place, a state where it was left."""
         page, session, state = self._page, self._session, opened.state
         page.timeline.show_playing(False)
+        page.lessons.forget_wanted()
         if state is None:
             place = opened.place
             kept, shaders = page.editing.typed, page.shading.kept

@@ -209,6 +209,12 @@ class LessonPresenter(QObject):
         if wanted is not None:
             self._job.call(partial(found_lesson, *wanted))
 
+    def forget_wanted(self) -> None:
+        """Open no lesson that is still waited for: something else is opened."""
+        self._painted.stop()
+        self._wanted = None
+        self._job.cancel()
+
     def open_path(self, path: str) -> None:
         """Open the lesson of a file, or go to one of the places that are `listed`."""
         if path == WAY_BACK:

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QApplication, QPushButton
 from pytestqt.qtbot import QtBot
 
 from app.background import is_working
+from app.files.open_any import open_any
 from app.files.user_folders import attempt_file
 from app.pages.exercises.page import ExercisesPage
 from app.pages.lessons.walk import LessonWalk
@@ -112,6 +113,14 @@ def test_another_scene_closes_the_lesson_and_a_key_opens_it_again(
     window.run_action("lesson_return")
     assert settled(window, qtbot).number == 1
     assert window.session.is_predicting
+
+
+def test_what_is_opened_while_a_lesson_is_waited_for_stays_open(window: MainWindow, qtbot: QtBot) -> None:
+    window.page.lessons.open("inside-or-outside", 1)
+    window.files.show_opened(open_any("single-triangle"))
+    qtbot.waitUntil(lambda: not window.page.lessons.is_working)
+    assert not window.page.lessons.is_open
+    assert window.session.document.title == "Single triangle"
 
 
 def test_what_was_open_is_kept_for_the_next_start_with_the_lesson_over_it(
