@@ -1,10 +1,13 @@
 """What a task of a lesson asks for is offered where the learner looks for it."""
 
+import re
+
 import pytest
 from pytestqt.qtbot import QtBot
 
 from app.pages.step.setting_records import settings_records
 from app.session.document import Document, TeachingRaster
+from core.settings import FIELDS
 from lessons.course.catalogue import shipped
 from lessons.course.state import States
 from widgets.basics.settings_panel import MORE, SettingsPanel
@@ -35,3 +38,11 @@ def test_a_task_on_depths_or_the_camera_opens_the_scene_pane(name: str) -> None:
     for number, part in enumerate(lesson.steps):
         if part.solution is not None and (part.solution.depth or part.solution.camera):
             assert "scene" in States(lesson).of_step(number).panes, number + 1
+
+
+@pytest.mark.parametrize("name", list(shipped().lessons))
+def test_what_a_task_sends_the_learner_to_has_that_title(name: str) -> None:
+    titles = [field.title for field in FIELDS.values()] + ["Scene", "Numbers"]
+    texts = " ".join(f"{part.text} {part.task}" for part in shipped().named(name).steps)
+    for first in re.findall(r"\bunder ([A-Z]\w+)", texts):
+        assert any(title == first or title.startswith(f"{first} ") for title in titles), first
