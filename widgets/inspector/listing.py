@@ -4,7 +4,7 @@ import math
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import QPoint, Qt, Signal, Slot
+from PySide6.QtCore import QPoint, QSize, Qt, Signal, Slot
 from PySide6.QtGui import (
     QContextMenuEvent,
     QFont,
@@ -68,6 +68,8 @@ class ListingView(CodeView):
         self._in_turn: frozenset[str] = frozenset()
         self._kept_rows: dict[tuple[object, ...], int] = {}
         """By source, lines, width and type."""
+        self._wrapped_at = -1
+        """Width for which the text was wrapped."""
         self.setReadOnly(True)
         self.setTextInteractionFlags(
             Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
@@ -177,6 +179,10 @@ class ListingView(CodeView):
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Keep the margin beside the text, and the line of the step in view."""
+        if event.size().width() != self._wrapped_at:
+            # Of a bar that goes while all is being shown, Qt tells nothing, and would wrap nothing.
+            event = QResizeEvent(event.size(), QSize(self._wrapped_at, event.oldSize().height()))
+            self._wrapped_at = event.size().width()
         super().resizeEvent(event)
         if event.size().width() != event.oldSize().width():
             self.room_changed.emit()
@@ -187,6 +193,8 @@ class ListingView(CodeView):
     def showEvent(self, event: QShowEvent) -> None:
         """Bring the line into view that was marked while nobody saw it."""
         super().showEvent(event)
+        if self.viewport().width() != self._wrapped_at:
+            self.resizeEvent(QResizeEvent(self.viewport().size(), QSize()))
         self._bring_line_into_view()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:

@@ -73,11 +73,16 @@ class LessonScroll(QScrollArea):
         layout = self._content.layout()
         return 0 if layout is None else layout.totalHeightForWidth(width)
 
-    def measure_anew(self) -> None:
-        """Take what is shown now into account, before the layouts get to it one after the other."""
+    def put_off(self, is_put_off: bool) -> None:
+        """Lay out no part that is shown until all is known; then take all into account at once."""
+        layout = self._content.layout()
+        if layout is not None:
+            layout.setEnabled(not is_put_off)
+        if is_put_off:
+            return
         _invalidate(self._bar.layout())
         self._bar.place.updateGeometry()
-        _invalidate(self._content.layout())
+        _invalidate(layout)
 
     def take_room(self, width: int, wanted: int, most: int) -> None:
         """Be as high as the content needs in a width, see `height_for`, and at ``most`` so high: then it scrolls."""

@@ -321,9 +321,9 @@ class SideColumn(QWidget):
         """Divide the height no more until all is known that is shown, then once."""
         self._is_put_off = is_put_off
         self._layout.setEnabled(not is_put_off)
+        if self._lesson is not None:
+            self._lesson.put_off(is_put_off)
         if not is_put_off:
-            if self._lesson is not None:
-                self._lesson.measure_anew()
             self._divide()
             self._layout.invalidate()
             self._layout.activate()

@@ -200,6 +200,9 @@ class MainArea(QWidget):
                 layout.setEnabled(True)
                 layout.invalidate()
             self._layout.activate()
+            companion = self._companion()
+            if companion is not None and not self.beside.isHidden():
+                self._share_sides(companion)
 
     def _place_ranges(self) -> None:
         size = self.ranges.sizeHint()
@@ -289,16 +292,7 @@ class MainArea(QWidget):
             self.beside.hide()
             self._main_title.hide()
             return
-        is_stacked = self._are_stacked(companion)
-        self._sides.setDirection(
-            QBoxLayout.Direction.TopToBottom if is_stacked else QBoxLayout.Direction.LeftToRight
-        )
-        shares = (1, 1)
-        if is_stacked and not companion.is_alike:
-            below = self._height_below(companion)
-            shares = (self.rows.height() - below, below)
-        for side, share in enumerate(shares):
-            self._sides.setStretch(side, share)
+        self._share_sides(companion)
         self._main_title.setVisible(companion.is_alike)
         if is_veiled:
             # It keeps its place, so that the main view keeps its own.
@@ -307,6 +301,17 @@ class MainArea(QWidget):
             companion.refresh(self._moment)
             self.beside.setCurrentWidget(companion.widget)
         self.beside.show()
+
+    def _share_sides(self, companion: Companion) -> None:
+        """Put both sides next to each other or one above the other, a table as high as it needs."""
+        is_stacked, shares = self._are_stacked(companion), (1, 1)
+        directions = QBoxLayout.Direction.LeftToRight, QBoxLayout.Direction.TopToBottom
+        self._sides.setDirection(directions[is_stacked])
+        if is_stacked and not companion.is_alike:
+            below = self._height_below(companion)
+            shares = (self.rows.height() - below, below)
+        for side, share in enumerate(shares):
+            self._sides.setStretch(side, share)
 
     # Views.
 

@@ -160,3 +160,22 @@ def test_undo_in_a_shader_leads_to_no_text_before_the_step(window: MainWindow, q
         given = editor.toPlainText()
         editor.undo()
         assert (editor.toPlainText(), walk.task.is_unsolved) == (given, True)
+
+
+def test_a_listing_is_wrapped_for_the_width_that_it_has(window: MainWindow, qtbot: QtBot) -> None:
+    page, seen = window.page, 0
+    page.lessons.keeps_attempts = False
+    for name in ("behind-the-wall", "the-middle"):
+        page.lessons.open(name, 0)
+        walk = settled(window, qtbot)
+        for _ in range(len(walk.lesson.steps)):
+            page.settle()
+            listing = page.listing
+            line = listing.document().firstBlock().layout().lineAt(0)
+            if listing.isVisible() and line.isValid():
+                seen += 1
+                room = listing.viewport().width() - 2 * listing.document().documentMargin()
+                assert line.width() == room, (name, walk.number)
+            walk.next()
+            settled(window, qtbot)
+    assert seen > 4
