@@ -18,7 +18,7 @@ def random_place(axes: tuple[Axis, ...], seed: int) -> tuple[float, ...]:
     return tuple(float(source.choice(axis.values)) for axis in axes)
 
 
-@pytest.mark.parametrize("name", every_nth(NAMES, 2))
+@pytest.mark.parametrize("name", every_nth(NAMES, 4))
 def test_weak_methods_fail_somewhere_and_the_last_holds_there(name: str) -> None:
     info = experiments.get(name).info
     ends = tuple(

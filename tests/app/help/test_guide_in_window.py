@@ -8,6 +8,7 @@ from lessons.help import guide
 from tests.covering import every_nth
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("title", every_nth(["Change a method", "Let two plates fight"], 2))
 def test_a_change_of_method_is_seen_in_the_finished_picture(
     window: MainWindow, qtbot: QtBot, title: str

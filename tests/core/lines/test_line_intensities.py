@@ -118,8 +118,7 @@ def test_a_line_in_front_drawn_later_covers(line):
     assert frame.primitive[5, 7] == 1
 
 
-@pytest.mark.parametrize("line", SMOOTH)
-@pytest.mark.parametrize("name", ["cube", "sphere"])
+@in_turns(line=SMOOTH, name=["cube", "sphere"])
 def test_an_edge_that_two_triangles_share_is_the_same_twice(line, name):
     # The stronger pixels of the second one never pass: they tie with the first, bit for bit.
     scene = make_scene(name)

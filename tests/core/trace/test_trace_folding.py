@@ -143,6 +143,7 @@ def test_one_triangle_continues_the_picture_of_the_earlier_ones(triangle, choice
     check_one_triangle(clip_scene(), Settings(**choice), triangle)
 
 
+@pytest.mark.slow
 def test_one_triangle_of_a_lit_scene_gives_the_picture_when_it_is_the_last():
     scene = SCENES["lit"]
     for choice in EACH_METHOD:

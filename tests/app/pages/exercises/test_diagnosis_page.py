@@ -110,6 +110,7 @@ def test_what_is_no_such_picture_is_one_sentence(small: MainWindow, tmp_path: Pa
     small.session.set_asked("", is_open=False)
 
 
+@pytest.mark.slow
 def test_what_goes_well_takes_an_earlier_warning_of_its_page_away(small: MainWindow, tmp_path: Path) -> None:
     Image.new("RGB", (3, 2)).save(tmp_path / "small.png")
     Image.new("RGB", (16, 12)).save(tmp_path / "black.png")

@@ -42,6 +42,7 @@ def test_every_experiment_is_offered_and_the_open_scene_last(page: StabilityPage
     assert "run the experiment first" in stability_pages.status(page)
 
 
+@pytest.mark.slow
 def test_a_run_shows_every_cell_as_it_is_run_elsewhere(page: StabilityPage, qtbot: QtBot) -> None:
     unknown: list[int] = []
 

@@ -233,6 +233,7 @@ def test_the_raster_of_a_table_is_its_cells_whatever_is_asked(editing: MainWindo
         assert table_of(editing) is before
 
 
+@pytest.mark.slow
 def test_a_table_with_fewer_fragments_than_patches_is_saved_opened_and_shown(
     window: MainWindow, tmp_path: Path
 ) -> None:

@@ -29,6 +29,7 @@ def open_scene(window: MainWindow, name: str) -> ClipScene:
     return scene
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "handles"), every_nth([("segment", 2), ("points", 1)], 2))
 @pytest.mark.own_window
 def test_every_end_has_a_handle_that_moves_it(window: MainWindow, name: str, handles: int) -> None:

@@ -293,6 +293,7 @@ def test_visibility(seed: int) -> None:
     assert found["painters"].errors["wrong-visible"] == 0 < found["last-drawn"].errors["wrong-visible"]
 
 
+@pytest.mark.slow
 def test_loops() -> None:
     # A loop over rays asks all triangles for every pixel. On 16 x 16 pixels the tree asks more than a z-buffer sets up
     # and tests, until there are triangles enough; with a fourth of the pixels it asks a third at most.
@@ -427,6 +428,7 @@ def test_skinning() -> None:
         assert found["linear"].counts["vertices"] == 17 * 16
 
 
+@pytest.mark.slow
 def test_bands() -> None:
     # Each of three processes transforms all 4 * 8 * 7 triangles; each covered pixel is drawn by one of them.
     three, alone = (run("bands", processes=count, rings=8) for count in (3, 1))

@@ -25,6 +25,7 @@ class Opposite(Costs):
         return settings != others == with_method(settings, self.family, self.dearest)
 
 
+@pytest.mark.slow
 def test_sixteen_samples_take_longer_than_one() -> None:
     scene = sphere_scene(8, 300)
     assert scene.size[0] * scene.size[1] > TIMED_PIXELS
@@ -73,6 +74,7 @@ def test_choices_that_take_longer_together_are_not_made() -> None:
     assert all("so none is made" in each.reason for each in chosen.decisions)
 
 
+@pytest.mark.slow
 def test_a_plan_predicts_its_time_if_anything_was_timed() -> None:
     scene = sphere_scene(4, 24)
     untimed = plan(scene, costs=Costs())
