@@ -135,7 +135,6 @@ def test_pages_scroll_where_large_type_has_no_room(presented: MainWindow) -> Non
         assert presented.pages.minimumSizeHint().height() <= 720, name
 
 
-@pytest.mark.slow
 def test_text_grows_while_presenting_and_is_the_desks_own_after_it(presented: MainWindow) -> None:
     sentence, at_desk = presented.page.sentence, presented.appearance.text_size
     usual = sentence.font().pixelSize()

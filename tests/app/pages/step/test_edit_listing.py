@@ -468,7 +468,6 @@ def test_a_listing_that_cannot_be_edited_says_why_in_its_menu(window: MainWindow
     assert menu.actions()[-1].text() == "Edit line 5"
 
 
-@pytest.mark.slow
 def test_another_b_takes_the_place_of_the_edit_and_undo_brings_it_back(window: MainWindow) -> None:
     bresenham(window)
     edits = (Edit("line", "bresenham", original("line", "bresenham").source.replace(">= 0", "> 0")),)

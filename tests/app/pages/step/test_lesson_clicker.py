@@ -69,7 +69,6 @@ def test_what_is_typed_in_an_editor_is_not_a_clickers(window: MainWindow, qtbot:
     assert not settled(window, qtbot).task.is_unsolved
 
 
-@pytest.mark.slow
 def test_a_clicker_leads_back_from_a_scene_to_the_lesson(
     window: MainWindow, qtbot: QtBot, walk: LessonWalk
 ) -> None:

@@ -32,7 +32,6 @@ def model(window: MainWindow) -> MainWindow:
     return window
 
 
-@pytest.mark.slow
 def test_a_model_fills_the_view_that_it_opens_in(model: MainWindow) -> None:
     assert model.page.current_view() == "scene"
     presenter = model.page.views.scene_presenter
