@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 import app.pages
@@ -84,21 +83,6 @@ def test_undo_theme_and_presenter_work_on_every_page(window: MainWindow) -> None
     assert window.session.document.settings.fill == "bounding-box"
     QTest.keyClick(window, Qt.Key.Key_T, Qt.KeyboardModifier.ControlModifier)
     assert window.memory.preferences.theme == "dark"
-
-
-@pytest.mark.slow
-def test_help_lists_the_keys_of_the_page(window: MainWindow) -> None:
-    def listed() -> str:
-        QTest.keyClicks(window, "?")
-        labels = window.overlays.key_help.findChildren(QLabel)
-        text = " ".join(label.text() for label in labels)
-        QTest.keyClick(window, Qt.Key.Key_Escape)
-        return text
-
-    assert "Larger steps (out)" in listed()
-    window.pages.show_page("compare")
-    assert "Larger steps (out)" not in listed()
-    assert "Light or dark" in listed()
 
 
 def test_playing_ends_when_the_page_is_left(window: MainWindow) -> None:

@@ -12,12 +12,9 @@ from app.session.session import Session
 from app.views.companions import COMPANIONS, entered_diagram, new_depths
 from app.window.main_window import MainWindow
 from core import Settings
-from core.setting_texts import settings_from_texts
 from core.transform.traced import SPACES, spaces_reached
-from lessons.lectures.scenes import ALL_SCENES, LECTURE_SCENES
+from lessons.lectures.scenes import LECTURE_SCENES
 from lessons.scenes import make_scene
-from widgets.basics.style_sheet import style_sheet
-from widgets.basics.theme import current_theme
 from widgets.inspector.step_table import StepTableView
 from widgets.space.diagram import CUBE, Diagram
 from widgets.space.view import SpaceView
@@ -77,17 +74,6 @@ def test_both_depths_are_alike_and_lie_where_they_are_largest(window: MainWindow
         assert (main.x() == other.x()) is ("scene" in panes), "below each other in a narrow area"
         # Of an odd height one has a pixel more.
         assert page.grid.placement().cell == pytest.approx(new_depths.placement().cell, rel=0.01), panes
-
-
-@pytest.mark.slow
-def test_no_tab_of_a_view_is_hidden_beside_a_pane(window: MainWindow) -> None:
-    bar, application = window.page.main_area.view_bar, QApplication.instance()
-    assert isinstance(application, QApplication)
-    application.setStyleSheet(style_sheet(current_theme()))
-    window.page.show_panes(["inspector", "scene"])
-    window.page.settle()
-    assert bar.width() >= bar.sizeHint().width()
-    assert window.page.main_area.buffer_choice.isVisible()
 
 
 def test_corners_enter_the_cube_as_they_are_divided(qapp: object) -> None:
@@ -169,31 +155,6 @@ def test_a_clipper_fills_its_table_beside_the_pixels(window: MainWindow) -> None
     view.cells.clicked.emit(view.cells.model().index(1, 0))
     assert session.explanation is not None
     assert session.explanation.values["border"] == "right"
-
-
-@pytest.mark.slow
-@pytest.mark.own_window
-@pytest.mark.parametrize(
-    ("scene", "size", "is_below"),
-    [
-        ("jubair-cyrus-beck", (1366, 800), True),
-        ("lmu-clipped", (1366, 800), True),
-        ("lmu-clipped", (1900, 700), False),
-    ],
-)
-def test_a_table_stands_where_it_can_be_read_and_the_picture_is_larger(
-    window: MainWindow, scene: str, size: tuple[int, int], is_below: bool
-) -> None:
-    window.resize(*size)
-    row = ALL_SCENES[scene]
-    window.session.open(open_document(row.make(), row.title, settings=settings_from_texts(row.settings)))
-    session, area = window.session, window.page.main_area
-    places = set()
-    for position in range(0, session.trace.stage("raster").steps.count, 12):
-        session.set_stage("raster", position)
-        QApplication.processEvents()
-        places.add((area.beside.x() > 0, area.beside.y() > 0))
-    assert places == {(not is_below, is_below)}
 
 
 def test_scan_lines_have_their_active_list_beside_them(window: MainWindow) -> None:

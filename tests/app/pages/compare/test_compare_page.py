@@ -83,24 +83,6 @@ def test_cancelling_leaves_what_was_measured_before(page: ComparePage, qtbot: Qt
 
 
 @pytest.mark.slow
-@pytest.mark.own_window
-def test_cancelling_the_first_measurement_draws_nothing(page: ComparePage, qtbot: QtBot) -> None:
-    drawn: list[int] = []
-
-    def cancel_at_the_first_point(_: object) -> None:
-        if not drawn:
-            drawn.append(len(page.scatter.places()))
-            page.cancel()
-
-    page.work.part_done.connect(cancel_at_the_first_point)
-    QTest.keyClick(page.window(), Qt.Key.Key_F5)
-    qtbot.waitUntil(lambda: bool(drawn), timeout=60000)
-    assert drawn == [1]
-    assert page.scatter.places() == []
-    assert page.choice.result is None
-
-
-@pytest.mark.slow
 def test_a_failed_measurement_leaves_earlier_results(page: ComparePage, qtbot: QtBot) -> None:
     before = measured(page, qtbot)
     page.begin(partial(measured_on, partial(measure, "visibility", "cycle", {"length": 3.0}), None), "")

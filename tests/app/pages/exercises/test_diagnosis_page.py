@@ -9,8 +9,8 @@ from PIL import Image
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
+from app.pages.cover import COVERED
 from app.pages.exercises.page import ExercisesPage
-from app.pages.page_bar import COVERED
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import render

@@ -327,15 +327,6 @@ def test_closing_while_looking_ends_the_thread(page: PlanPage) -> None:
     assert time.perf_counter() - start < 20
 
 
-@pytest.mark.slow
-def test_panes_come_back_as_they_were(page: PlanPage) -> None:
-    page.columns.setSizes([300, 900])
-    state = page.layout_state()
-    page.columns.setSizes([400, 800])
-    page.restore_layout(state)
-    assert page.columns.sizes()[0] == pytest.approx(300, abs=8)
-
-
 def test_a_plan_that_is_applied_is_the_scene_as_it_is() -> None:
     chosen = plan(built_in_scene("shared-edge").make())
     others = PIPELINE.candidates(chosen.settings)

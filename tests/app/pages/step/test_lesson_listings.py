@@ -78,14 +78,6 @@ def test_a_shader_that_is_typed_is_a_task(window: MainWindow, qtbot: QtBot, tmp_
 
 
 @pytest.mark.slow
-def test_a_step_names_the_buffer_of_a_and_b(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
-    walk = opened(window, qtbot, tmp_path, 0, lesson_text("three-signs"))
-    walk.go(0)
-    settled(window, qtbot)
-    assert window.page.compare_view.buffer_box.currentData() == "overdraw"
-
-
-@pytest.mark.slow
 def test_what_a_check_finds_stays_marked(
     window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -84,24 +84,6 @@ def test_without_a_refuting_step_the_run_with_the_mistake_stands_beside(
     assert "all edges inclusive" in window.page.compare_view.linked.titles[1].text()
 
 
-@pytest.mark.slow
-@pytest.mark.own_window
-def test_the_line_of_the_step_is_in_sight_below_a_long_answer(window: MainWindow, qtbot: QtBot) -> None:
-    window.resize(1280, 800)
-    window.page.lessons.open("shared-edges", 4)
-    walk = settled(window, qtbot)
-    assert answered(walk, qtbot, "neither of the two").startswith("Right.")
-    settled(window, qtbot)
-    window.page.settle()
-    listing, column = window.page.listing, window.page.column.step
-    cursor = listing.textCursor()
-    cursor.setPosition(listing.toPlainText().index("return values"))
-    line = listing.cursorRect(cursor)
-    assert listing.viewport().rect().contains(line)
-    line.moveTopLeft(listing.viewport().mapTo(column.viewport(), line.topLeft()))
-    assert column.viewport().rect().contains(line)
-
-
 def test_a_digit_chooses_an_option_and_goes_to_no_stage(
     window: MainWindow, qtbot: QtBot, tmp_path: Path
 ) -> None:

@@ -58,18 +58,6 @@ def test_a_pixel_found_outside_differs_from_none_not_reached() -> None:
     assert compare(*sides)[2].sentence == "0 of 3 pixels differ."
 
 
-@pytest.mark.slow
-def test_one_key_shows_both_and_the_pixels_again(window: MainWindow) -> None:
-    QTest.keyClick(window, Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier)
-    view = window.page.compare_view
-    assert view.isVisible()
-    assert window.menus.actions_by_name["compare"].isChecked()
-    assert "pixels differ" in view.summary.text()
-    QTest.keyClick(window, Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier)
-    assert window.page.current_view() == "pixels"
-    assert not window.menus.actions_by_name["compare"].isChecked()
-
-
 @pytest.mark.parametrize("name", every_nth(["textured-floor", "single-triangle", "cube"], 3))
 def test_b_differs_in_the_stage_that_is_shown_and_draws(window: MainWindow, name: str) -> None:
     scene = make_scene(name)

@@ -1,11 +1,10 @@
 """What A | B keeps, and what it forgets: from stage to stage, from scene to scene, and when it is left."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
-from PySide6.QtGui import QImage, QWheelEvent
+from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -229,21 +228,3 @@ def test_a_wheel_over_a_choice_of_buffers_changes_nothing(window: MainWindow) ->
         QApplication.sendEvent(box, turned)
         assert box.currentIndex() == shown
         assert not turned.isAccepted()
-
-
-@pytest.mark.slow
-def test_pictures_of_a_and_b_have_a_margin_and_name_the_settings(window: MainWindow, tmp_path: Path) -> None:
-    compared(window, "shared-edge", fill="scanline", depth="z-16")
-    titles = [title.text().splitlines()[0] for title in window.page.compare_view.titles[:2]]
-    assert titles[0].startswith("A: ")
-    assert titles[1].startswith("B: ")
-    for title in titles:
-        assert "fill: " in title
-        assert "depth" in title
-    window.exports.export_to(str(tmp_path / "both.png"))
-    picture = QImage(str(tmp_path / "both.png"))
-    ground = picture.pixel(0, 0)
-    across, down = range(picture.width()), range(picture.height())
-    for k in range(8):
-        assert {picture.pixel(x, y) for x in across for y in (k, picture.height() - 1 - k)} == {ground}
-        assert {picture.pixel(x, y) for y in down for x in (k, picture.width() - 1 - k)} == {ground}
