@@ -1,6 +1,7 @@
 """Listings as printed run as side B of A | B, beside the right method, from where they first differ."""
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -21,6 +22,30 @@ pytestmark = pytest.mark.shared_window
 def opened(window: MainWindow, scene: str) -> MainWindow:
     window.session.open(open_any(scene).document)
     return window
+
+
+@pytest.mark.slow
+def test_bresenham_as_printed_steps_up_one_column_early(window: MainWindow) -> None:
+    opened(window, "pellacini-line")
+    said: list[str] = []
+    window.page.message_sent.connect(said.append)
+    window.show_printed("pellacini-bresenham")
+    view = window.page.comparing._view
+    assert window.page.current_view() == "compare"
+    assert window.session.document.settings.line == "bresenham-float"
+    assert window.session.cursor.stage == "raster"
+    assert "as printed: Bresenham loop (Pellacini)" in view.titles[1].text()
+    assert said[-1].startswith(
+        "In the order of drawing, pixel 2 is the first that differs: A draws (1, 0), B draws (1, 1)."
+    )
+    # The same loop, line by line, but that A tests before it adds.
+    texts = [listing.toPlainText() for listing in view.listings]
+    assert sorted(texts[0].splitlines()) == sorted(texts[1].splitlines())
+    assert re.search(r"if d > 0.5.*d \+= m", texts[0], re.DOTALL)
+    assert re.search(r"write\(x, y, 1\).*d \+= m.*if d > 0.5", texts[1], re.DOTALL)
+    assert "tested before m is added (after Pellacini)" in view.titles[0].text()
+    assert all(listing._line for listing in view.listings)
+    assert view.grids[2].isVisibleTo(view)
 
 
 def test_dda_as_printed_ends_before_the_last_pixel(window: MainWindow) -> None:
