@@ -173,7 +173,9 @@ def _row(decision: Decision, outcome: Outcome | None, report: PlanReport | None)
     is_cheaper = decision.chosen != decision.dearest
     instead = f"instead of {table.get(decision.setting, decision.dearest).title}" if is_cheaper else ""
     if not is_cheaper:
-        instead = "kept: cheaper methods are too inaccurate" if decision.is_needed else "no cheaper method"
+        instead = (
+            "kept: cheaper methods are too inaccurate" if decision.is_needed else "nothing cheaper will do"
+        )
     verdict = Verdict.OPEN
     if outcome is not None:
         verdict = Verdict.HELD if outcome.is_right else Verdict.WRONG
