@@ -14,6 +14,7 @@ from app.session.session import Session
 from core.settings import Settings
 from core.study.planner.records import Tolerance
 from core.study.planner.reference_settings import reference_settings
+from widgets.basics.message_bar import Progress
 from widgets.experiments.case_pictures import StudyPictures
 from widgets.experiments.plan import PlanControls, PlanFindings, PlanRows, PlanSummary
 
@@ -110,6 +111,16 @@ class PlanPage(ExperimentPage):
             partial(planned, document.scene, title, document.settings, tolerance, rounds),
             "Analysing the scene",
         )
+
+    def _show_progress(self, progress: Progress | None) -> None:
+        """Show how far it is; a look does not stand in the way of an analysis."""
+        start = self.controls.start_button
+        had_focus = start.hasFocus()
+        super()._show_progress(progress)
+        if progress is not None and not self._rounds:
+            start.show()
+            if had_focus:
+                start.setFocus()
 
     @Slot(object)
     def _take_part(self, part: PlanShown) -> None:

@@ -96,6 +96,7 @@ def test_it_looks_at_a_scene_by_itself_and_measures_when_it_is_asked_to(page: Pl
     assert page.window().focusWidget() is page.controls.start_button
     another_scene(page.window())
     qtbot.waitUntil(lambda: page.is_running)
+    assert page.controls.start_button.isVisible()
     page.window().pages.show_page("step")
     assert not page.is_running
     page.window().pages.show_page("plan")
