@@ -38,7 +38,6 @@ def test_clipping_first_holds_near_the_eye(method: str) -> None:
     assert is_right_everywhere("clip-after-divide", method, every=3)
 
 
-@pytest.mark.slow
 def test_a_shared_edge_clipped_in_order_falls_apart() -> None:
     found = outcomes("clip-order", "clipping=sutherland-hodgman-lecture")
     assert {Outcome.HOLE, Outcome.DOUBLE_HIT} <= set(found.values())

@@ -34,7 +34,7 @@ def is_like_the_plain_one(scene, settings, encoding="srgb") -> bool:
 NAMES = list(product(["lit", "clip", "orthographic", "textured-clip", "intersecting"], ["box", "tent"]))
 
 
-@pytest.mark.parametrize(("shown", "choice"), every_nth(in_turn(NAMES, SAMPLED), 2), ids=name_of)
+@pytest.mark.parametrize(("shown", "choice"), in_turn(NAMES, SAMPLED), ids=name_of)
 def test_every_choice_has_the_bytes_of_the_plain_way(shown, choice):
     name, resolve_filter = shown
     scene = SCENES[name]

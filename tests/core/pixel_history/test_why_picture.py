@@ -20,7 +20,7 @@ from core.trace.source import TraceSource
 from lessons.scenes import make_scene
 from tests.core.strategies import ANY_TRIANGLES, BLOCK_SIZES
 from tests.core.trace.trace_cases import CASES, EACH_METHOD, MIXES, SCENES, name_of, settings_of, small_scene
-from tests.covering import every_nth, in_turn, is_everything
+from tests.covering import in_turn, is_everything
 
 PIXEL_LIMIT = 6
 
@@ -178,7 +178,7 @@ def test_any_triangle_at_any_pixel(case, data):
 
 
 @pytest.mark.parametrize(
-    ("name", "choice"), every_nth(in_turn(["clip", "lit", "textured-clip"], EACH_METHOD), 2), ids=name_of
+    ("name", "choice"), in_turn(["clip", "lit", "textured-clip"], EACH_METHOD), ids=name_of
 )
 def test_numbers_are_those_of_the_traces(name, choice):
     scene = SCENES[name]

@@ -23,7 +23,7 @@ from lessons.small_scenes import segment_scene
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 from tests.core.trace.executed_rows import Ran, lines_that_run
 from tests.core.trace.trace_cases import SCENES, settings_of
-from tests.covering import every_nth, in_turns
+from tests.covering import in_turns
 
 LINES = list(table.names("line"))
 SEVERAL = ("rectangle", "wu", "gupta-sproull")
@@ -300,7 +300,7 @@ def test_rows_are_the_pixels_of_the_edges_in_order(line):
     assert steps.back(steps.count, Level.GROUP) == steps.starts[steps.group_ends[1]]
 
 
-@pytest.mark.parametrize("line", every_nth(LINES, 3))
+@pytest.mark.parametrize("line", LINES)
 def test_every_step_names_a_line_of_the_listing_and_numbers_that_there_are(line):
     found = trace(SCENES["clip"], wireframe(line)).stage("raster")
     seen = set()

@@ -136,9 +136,7 @@ def check_one_triangle(scene: ClipScene, settings: Settings, triangle: int) -> N
         assert np.array_equal(count, first.cover_count), before
 
 
-@pytest.mark.parametrize(
-    ("triangle", "choice"), every_nth(in_turn([0, 2, 4, 5, 9], EACH_METHOD), 2), ids=name_of
-)
+@pytest.mark.parametrize(("triangle", "choice"), in_turn([0, 2, 4, 5, 9], EACH_METHOD), ids=name_of)
 def test_one_triangle_continues_the_picture_of_the_earlier_ones(triangle, choice):
     check_one_triangle(clip_scene(), Settings(**choice), triangle)
 

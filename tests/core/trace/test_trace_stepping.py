@@ -13,7 +13,7 @@ from core.records.listing import Operation
 from core.records.steps import Level, Steps, ends_of
 from core.trace.stage_trace import MARKS, StageTrace
 from tests.core.trace.trace_cases import EACH_METHOD, SCENES, name_of, settings_of, small_region
-from tests.covering import every_nth, in_turn
+from tests.covering import in_turn
 
 LEVELS = list(Level)
 WITHOUT_LISTING = {
@@ -99,7 +99,7 @@ def check_rows(steps: Steps, position: int) -> None:
 
 @pytest.mark.parametrize(
     ("name", "choice"),
-    every_nth(in_turn(["clip", "lit", "textured-clip", "near-plane"], EACH_METHOD), 2),
+    in_turn(["clip", "lit", "textured-clip", "near-plane"], EACH_METHOD),
     ids=name_of,
 )
 def test_every_stage_steps_both_ways_and_is_explained(name, choice):
@@ -192,7 +192,7 @@ def test_columns_and_marks_have_a_value_a_row(name):
         assert counts == {"rows": rows} | {mark: int(flags.sum()) for mark, flags in found.marks.items()}
 
 
-@pytest.mark.parametrize("fill", every_nth(table.names("fill"), 3))
+@pytest.mark.parametrize("fill", table.names("fill"))
 def test_marks_of_the_raster_agree_with_its_columns(fill):
     found = trace(SCENES["shared-edge"], Settings(fill=fill, fill_rule="shared-edge")).stage("raster")
     columns, marks = found.columns, found.marks
