@@ -12,7 +12,7 @@ from app.pages.lessons.presenter import LessonPresenter
 from app.pages.page_bar import Caption, Page
 from app.pages.step.ab.presenter import ComparePresenter
 from app.pages.step.grid_presenter import GridPresenter, PixelMenu
-from app.pages.step.inspector_column import InspectorColumn, SideColumn, StepNarrator
+from app.pages.step.inspector_column import InspectorColumn, StepNarrator
 from app.pages.step.inspector_presenter import InspectorPresenter
 from app.pages.step.listing_presenter import ListingPresenter
 from app.pages.step.main_area import MainArea
@@ -21,6 +21,7 @@ from app.pages.step.panes import PANES, SIDE_PANES, RefreshOrder
 from app.pages.step.questions import AskThis, PredictionPresenter
 from app.pages.step.scene_pane import DepthTablePresenter, SceneOutlinePresenter
 from app.pages.step.shader_presenter import ShaderPresenter, make_shader_pane
+from app.pages.step.side_column import SideColumn
 from app.pages.step.stepping_presenter import EventChoice, SteppingPresenter
 from app.session.moment import Moment
 from app.session.passes import open_pass
