@@ -261,6 +261,8 @@ class RunPanel(QWidget):
         # An elided label takes any width by itself; here it keeps its own, so that a line that is full wraps.
         self.doing.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.rows = column_layout(self, 8, margins=(8, 8, 8, 8))
+        self.keeps_start = False
+        """Whether work can be started while other work runs, which nobody asked for."""
         self._introduction = intro
         self.intro = text_label(intro, self, name="What this page shows", wraps=True, is_selectable=True)
         self.rows.addWidget(self.intro)
@@ -332,8 +334,9 @@ class RunPanel(QWidget):
         had_focus = self.start_button.hasFocus() or self.cancel_button.hasFocus()
         for widget in (self.cancel_button, self.progress, self.doing):
             widget.setVisible(is_running)
-        self.start_button.setVisible(not is_running)
-        if had_focus:  # One takes the place of the other, for the keyboard too.
+        self.start_button.setVisible(not is_running or self.keeps_start)
+        if had_focus and not (is_running and self.keeps_start):
+            # One takes the place of the other, for the keyboard too.
             (self.cancel_button if is_running else self.start_button).setFocus()
         if progress is not None:
             self.progress.setRange(0, progress.total)

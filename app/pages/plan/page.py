@@ -14,7 +14,6 @@ from app.session.session import Session
 from core.settings import Settings
 from core.study.planner.records import Tolerance
 from core.study.planner.reference_settings import reference_settings
-from widgets.basics.message_bar import Progress
 from widgets.experiments.case_pictures import StudyPictures
 from widgets.experiments.plan import PlanControls, PlanFindings, PlanRows, PlanSummary
 
@@ -36,8 +35,6 @@ class PlanPage(ExperimentPage):
         self.shown: PlanShown | None = None
         self._finished: PlanShown | None = None
         """What comes back if an analysis comes to nothing."""
-        self._rounds = 0
-        """Of the analysis that runs or was run last; 0: it only looks, see `planned`."""
         self._replaced: Settings | None = None
         """What the scene was drawn with before the plan that is shown was applied; ``None``: it was not."""
         self.pictures.hide()
@@ -82,16 +79,17 @@ class PlanPage(ExperimentPage):
     def hideEvent(self, event: QHideEvent) -> None:
         """Look no longer: only an analysis that was asked for goes on."""
         super().hideEvent(event)
-        if not self._rounds:
+        if self.controls.keeps_start:
             self.work.cancel()
 
     # Analysing.
 
     @Slot()
     def _look(self) -> None:
-        """Plan without measuring, unless something was measured or runs, or the scene is asked about."""
+        """Plan without measuring, unless something was or is being measured, or the scene is asked about."""
         is_known = self.shown is not None and (self.shown.report is not None or not self.is_stale)
-        is_free = self.isVisible() and not self.is_running and not self._session.is_asked_about
+        is_measuring = self.is_running and not self.controls.keeps_start
+        is_free = self.isVisible() and not is_measuring and not self._session.is_asked_about
         if is_free and not is_known and self._session.document.scene.corner_count:
             self._begin(0)
 
@@ -106,21 +104,11 @@ class PlanPage(ExperimentPage):
         tolerance = Tolerance.exact() if controls.is_exact else Tolerance(color, pixels)
         title = document.title or "scene"
         self.work.cancel()
-        self._rounds = rounds
+        self.controls.keeps_start = not rounds
         self.begin(
             partial(planned, document.scene, title, document.settings, tolerance, rounds),
             "Analysing the scene",
         )
-
-    def _show_progress(self, progress: Progress | None) -> None:
-        """Show how far it is; a look does not stand in the way of an analysis."""
-        start = self.controls.start_button
-        had_focus = start.hasFocus()
-        super()._show_progress(progress)
-        if progress is not None and not self._rounds:
-            start.show()
-            if had_focus:
-                start.setFocus()
 
     @Slot(object)
     def _take_part(self, part: PlanShown) -> None:

@@ -101,6 +101,11 @@ def test_it_looks_at_a_scene_by_itself_and_measures_when_it_is_asked_to(page: Pl
     assert not page.is_running
     page.window().pages.show_page("plan")
     qtbot.waitUntil(lambda: page.shown is not None and page.shown.title == "Another")
+    page.window().session.undo()
+    qtbot.waitUntil(lambda: page.is_running)
+    another_scene(page.window())  # In the midst of a look.
+    qtbot.waitUntil(lambda: not page.is_running)
+    assert not page.is_stale
 
 
 def test_a_look_shows_every_stage_with_reason_and_numbers(looked_page: PlanPage) -> None:
