@@ -25,6 +25,7 @@ from core.trace import trace
 from core.trace.conditions import Condition, TraceNames, evaluate, parse_condition, spelled
 from core.trace.run_to import named_position
 from core.trace.stage_trace import MARKS, StageTrace
+from lessons.exercises.drafting import different_pixels
 
 COUNTS = ("drawn", "twice", "tested", "decisions", "colors", "rows")
 """Counts that are names as well as functions of settings."""
@@ -245,10 +246,7 @@ def _other_frame(situation: Situation, chosen: Mapping[str, str]) -> Frame:
 
 
 def _differs(situation: Situation, given: list[Any], chosen: Mapping[str, str]) -> int:
-    frames = situation.frame(), _other_frame(situation, chosen)
-    one, other = (to_display(frame.color).pixels[..., :3] for frame in frames)
-    differ = (frames[0].primitive != frames[1].primitive) | (one != other).any(axis=-1)
-    return int(np.count_nonzero(differ))
+    return len(different_pixels(situation.frame(), _other_frame(situation, chosen), most=0))
 
 
 def _apart(situation: Situation, given: list[Any], chosen: Mapping[str, str]) -> int:

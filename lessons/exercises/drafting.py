@@ -150,10 +150,10 @@ def seen_pixels(frame: Frame, triangle: int | None = None) -> Pixels:
     return frozenset((column, row) for row, column in np.argwhere(is_seen).tolist())
 
 
-def different_pixels(one: Frame, other: Frame) -> Pixels:
-    """Return the pixels where something else is seen, or a colour channel is more than a byte apart."""
+def different_pixels(one: Frame, other: Frame, most: int = 1) -> Pixels:
+    """Return the pixels where something else is seen, or a colour channel is more than ``most`` of 255 apart."""
     colors = (to_display(frame.color).pixels[..., :3].astype(np.int64) for frame in (one, other))
-    differs = (one.primitive != other.primitive) | (difference(*colors) > 1)
+    differs = (one.primitive != other.primitive) | (difference(*colors) > most)
     return frozenset((column, row) for row, column in np.argwhere(differs).tolist())
 
 

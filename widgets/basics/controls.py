@@ -133,7 +133,7 @@ def text_label(
     is_selectable: bool = False,
 ) -> QLabel:
     """Return a text: its role in the style sheet, what it is for who hears it, and what may be done with it."""
-    # What is selected is laid out as it is measured: a text that was not would be painted twice.
+    # Measuring a text that can be selected also lays it out: without that Qt would paint it twice.
     label = WrappedLabel(text, parent) if wraps and not is_selectable else QLabel(text, parent)
     label.setWordWrap(wraps)
     if role:

@@ -426,9 +426,8 @@ def found_lesson(wanted: "Lesson | str | Path", step: int | None) -> Found:
     else:
         lesson = wanted
     if lesson.path.parent != FOLDER:
-        from lessons.course.validation import (
-            validate,
-        )  # With all studies: not for what ships with the program.
+        # It comes with all studies: not for what ships with the program.
+        from lessons.course.validation import validate
 
         validate(lesson, {*course.lessons, lesson.name})
     return Found(course, lesson, step, progress_in(lesson, course))

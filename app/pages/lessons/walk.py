@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
+from importlib import import_module
 from random import SystemRandom
 from typing import TYPE_CHECKING
 
@@ -156,11 +157,9 @@ class LessonWalk(QObject):
     def _wanted(self, lesson: Lesson, number: int) -> Wanted:
         """Return the state of a step, and what it asks; the end keeps the last step's, or what it revealed."""
         states = self._states_of(lesson)
-        if number >= len(lesson.steps) or (number < 0 and self._recall):
-            from lessons.exercises.catalogue import (
-                TEMPLATES,
-            )  # All exercises: not before one of them is named.
         if number < 0 and self._recall:
+            from lessons.exercises.catalogue import TEMPLATES  # Not before one of them is asked.
+
             question = ask(TEMPLATES[self._recall], self._seed)
             first = states.of_step(0)
             before = replace(
@@ -172,6 +171,7 @@ class LessonWalk(QObject):
             if lesson.steps[number].answer is None:
                 return state, None
             return state, question_with_outline(lesson, number, question_of(lesson, number, states))
+        import_module("lessons.exercises.catalogue")  # The end names some of them: `end_record`.
         if self._is_last_open():
             return states.of_step(number - 1), None
         return states.of_reveal(number - 1) or states.of_solution(number - 1), None
