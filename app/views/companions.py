@@ -277,7 +277,7 @@ class NewDepths(GridBeside):
         stage, row = self.moment.stage_trace, self.moment.row
         triangle = -1 if row < 0 else int(stage.triangle[row])
         one = nouns(self.moment.trace.source.scene.corner_count).one
-        self._title.setText(f"New depths: {'none yet' if row < 0 else f'{one} {triangle}'}")
+        self._title.setText(f"New depths: {'none yet' if triangle < 0 else f'{one} {triangle}'}")
         self.grid.show_buffer(new_depths(self.moment, stage, row))
         origin = self.moment.trace.source.raster.bounds[:2]
         has_pixel = row >= 0 and stage.pixel[row, 0] >= 0

@@ -121,7 +121,10 @@ def _largest_tables(trace: StageTrace) -> list[StepTable]:
         largest = np.argsort(-np.bincount(units), kind="stable")[:LARGEST]
         for unit in np.intersect1d(largest, units).tolist():
             after = int(ends[unit]) if unit < len(ends) else steps.row_count
-            found.append(form.make(trace, rows[units == unit], steps.position_after(after - 1)))
+            of_unit = rows[units == unit]
+            # A table may give way to another one once its own rows are done.
+            for last in {int(of_unit[-1]), after - 1}:
+                found.append(form.make(trace, of_unit, steps.position_after(last)))
     return found
 
 

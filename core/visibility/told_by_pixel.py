@@ -27,7 +27,7 @@ def loops(step: StepValues) -> Said:
     text += f"; each {place} is accessed once, each {step.nouns.one} {counted(rays, 'time')}"
     return f"{text}.", formula_of(
         named(upright("tests"), asked).equals(
-            named(upright("rays"), rays) @ named(upright(step.nouns.many), primitives)
+            named(upright("rays"), rays) * named(upright(step.nouns.many), primitives)
         )
     )
 

@@ -187,8 +187,8 @@ class StepTableView(QWidget):
         """Those that are to be seen whole."""
         self._wanted: tuple[int, Theme, tuple[int, int]] | None = None
         """A width, a theme and the size that is wanted with them."""
-        self._sizes: dict[tuple[Theme, int], list[tuple[int, int]]] = {}
-        """Sizes of the largest, by theme and size of the type."""
+        self._sizes: dict[Theme, list[tuple[int, int]]] = {}
+        """Sizes of the largest in the usual type of a theme."""
         # Without a layout of its own: a title of two lines is laid out here, and not in all that is around.
         self._pane = pane = QWidget(self)
         self._title = text_label("", pane, role="strong", wraps=True)
@@ -219,7 +219,7 @@ class StepTableView(QWidget):
         self._fit()
 
     def make_room(self, tables: Sequence[StepTable]) -> None:
-        """Write from now on so that these tables are seen whole, as far as type that can be read allows."""
+        """Want room from now on in which these tables are seen whole."""
         self._largest, self._wanted = tuple(tables), None
         self._sizes.clear()
         self._fit()
@@ -228,28 +228,35 @@ class StepTableView(QWidget):
         """Return the width of the largest tables in the usual type, and the height that they need in ``width``."""
         theme = current_theme()
         if self._wanted is None or self._wanted[:2] != (width, theme):
-            sizes = self._sizes_in(theme.text_px)
+            sizes = self._usual_sizes()
             widest, highest = (max((size[k] for size in sizes), default=0) for k in (0, 1))
             self._wanted = width, theme, (widest, highest + self._height_around(width))
         return self._wanted[2]
 
     def _fit(self) -> None:
         """Give the table the largest type in which it is seen whole, and what it decides as much room as it needs."""
-        width, usual = self.width(), current_theme().text_px
-        self._note.setMinimumHeight(self._note_height(width))
-        height = self.height() - self._height_around(width)
-        least = min(usual, max(LIGHT.text_px, round(_LEAST_TYPE * usual)))
-        for pixels in range(usual, least - 1, -1):
-            if all(size[0] <= width and size[1] <= height for size in self._sizes_in(pixels)):
-                break
-        self.cells.set_type(pixels)
+        width = self.width()
+        note = _wrapped_height(self._note, self._note.text(), width)
+        self._note.setFixedHeight(max(self._note_height(width), note))
+        self.cells.set_type(self._type(width, self.height() - self._height_around(width)))
 
-    def _sizes_in(self, pixels: int) -> list[tuple[int, int]]:
-        """Return the sizes of the largest tables in type of a size."""
-        key = current_theme(), pixels
-        if key not in self._sizes:
-            self._sizes[key] = [_size_of(table, pixels) for table in self._largest]
-        return self._sizes[key]
+    def _type(self, width: int, height: int) -> int:
+        """Return the largest type in which the table fits; the usual one where all do, or where none helps."""
+        usual, shown = current_theme().text_px, self._table
+        if shown is None or all(w <= width and h <= height for w, h in self._usual_sizes()):
+            return usual
+        least = min(usual, max(LIGHT.small_px, round(_LEAST_TYPE * usual)))
+        if len(shown.rows) * _row_height(_metrics(least), least) > height:
+            return usual
+        sizes = ((pixels, _size_of(shown, pixels)) for pixels in range(usual, least, -1))
+        return next((pixels for pixels, (w, h) in sizes if w <= width and h <= height), least)
+
+    def _usual_sizes(self) -> list[tuple[int, int]]:
+        """Return the sizes of the largest tables in the usual type."""
+        theme = current_theme()
+        if theme not in self._sizes:
+            self._sizes = {theme: [_size_of(table, theme.text_px) for table in self._largest]}
+        return self._sizes[theme]
 
     def _note_height(self, width: int) -> int:
         lines = min(ceil(_WIDE * current_theme().text_px / max(width, 1)), 3)
@@ -259,7 +266,7 @@ class StepTableView(QWidget):
     def _height_around(self, width: int) -> int:
         """Return the height of title and note in a width, with what is between."""
         title = max((_wrapped_height(self._title, table.title, width) for table in self._largest), default=0)
-        return title + self._note_height(width) + 2 * _SPACING
+        return title + self._note_height(width) + 2 * _SPACING + 2 * self.cells.frameWidth()
 
     def show_table(self, table: StepTable | None) -> None:
         """Show a table as it is after a step; ``None``: nothing yet."""
@@ -269,6 +276,7 @@ class StepTableView(QWidget):
         self._note.setText(shown.note)
         self.cells.setAccessibleName(shown.title or "Table")
         self.cells.setAccessibleDescription(shown.note)
+        self._fit()
         self.cells.show_cells(shown)
 
     def table(self) -> StepTable | None:
@@ -293,13 +301,16 @@ class StepTableView(QWidget):
 
     @Slot()
     def _follow_theme(self) -> None:
-        self._fit()
         self.show_table(self._table)
 
 
 def _wrapped_height(label: QLabel, text: str, width: int) -> int:
     flags = int(Qt.TextFlag.TextWordWrap)
     return label.fontMetrics().boundingRect(QRect(0, 0, width, 1), flags, text).height()
+
+
+def _metrics(pixels: int) -> QFontMetrics:
+    return QFontMetrics(tabular_font(text_font(current_theme(), pixels)))
 
 
 def _row_height(metrics: QFontMetrics, pixels: int) -> int:
@@ -310,7 +321,7 @@ def _row_height(metrics: QFontMetrics, pixels: int) -> int:
 
 def _size_of(table: StepTable, pixels: int) -> tuple[int, int]:
     """Return width and height of a table, with its headings, in type of a size."""
-    metrics = QFontMetrics(tabular_font(text_font(current_theme(), pixels)))
+    metrics = _metrics(pixels)
 
     def advance(*texts: str) -> int:
         return max(map(metrics.horizontalAdvance, texts), default=0)

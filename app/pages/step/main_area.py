@@ -309,7 +309,7 @@ class MainArea(QWidget):
         self._sides.setDirection(directions[is_stacked])
         if is_stacked and not companion.is_alike:
             below = self._height_below(companion)
-            shares = (self.rows.height() - below, below)
+            shares = (self.rows.height() - self._sides.spacing() - below, below)
         for side, share in enumerate(shares):
             self._sides.setStretch(side, share)
 

@@ -78,3 +78,16 @@ def test_the_row_of_a_step_stays_in_view_in_a_table_that_shrinks(qtbot: QtBot) -
     view.resize(300, 200)
     cells = view.cells
     assert cells.visualRect(cells.model().index(11, 0)).bottom() <= cells.viewport().height()
+
+
+def test_in_the_room_that_it_wants_a_table_does_not_scroll(qtbot: QtBot) -> None:
+    view = StepTableView()
+    qtbot.addWidget(view)
+    cell = TableCell("1", "1", 4)
+    shown = table((cell, None), (cell, None))
+    view.make_room([shown])
+    view.show_table(shown)
+    view.resize(300, view.wanted_size(300)[1])
+    view.show()
+    cells = view.cells
+    assert (cells.verticalScrollBar().maximum(), cells.horizontalScrollBar().maximum()) == (0, 0)
