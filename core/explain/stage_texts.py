@@ -198,9 +198,13 @@ class DepthText(NamedTuple):
     """One sentence: range, cleared value, and which of two is nearer."""
 
 
-def initial_sentence(stage: str, corner_count: int = 3) -> str:
+NO_STEPS = "This stage has no steps."
+
+
+def initial_sentence(stage: str, corner_count: int = 3, *, has_steps: bool = True) -> str:
     """Return the sentence of a stage before its first step, or why primitives of so few corners skip it."""
-    return skipped_because(stage, corner_count) or nouns(corner_count).text(stage_of(stage).initial)
+    said = nouns(corner_count).text(stage_of(stage).initial) if has_steps else NO_STEPS
+    return skipped_because(stage, corner_count) or said
 
 
 def skipped_because(stage: str, corner_count: int) -> str:

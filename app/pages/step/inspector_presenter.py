@@ -45,7 +45,8 @@ def sentence_at(step: Step) -> str:
     """Return what is said of the step just done: of a row, what decided comes first; a larger one is summed up."""
     trace, row, level = step.stage_trace, step.row, step.cursor.level
     if row < 0:
-        return initial_sentence(trace.stage, trace.corner_count)
+        has_steps = trace.steps.row_count > 0
+        return initial_sentence(trace.stage, trace.corner_count, has_steps=has_steps)
     first = trace.steps.rows_done(trace.steps.back(step.cursor.position, level))
     if level <= Level.GROUP and row > first and "statement" in trace.steps.kinds:
         return statements_summary(trace, first, row, level)
