@@ -215,14 +215,19 @@ class _MovingList(ItemList):
         self.setCurrentRow(there)
         announce(self, f"{self.item(there).text()}: place {there + 1} of {self.count()}")
 
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Move the chosen item with Alt and an arrow."""
+    def event(self, event: QEvent) -> bool:
+        """Move the chosen item with Alt and an arrow: in the window these keys move the pin."""
         moves = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1}
-        key = Qt.Key(event.key())
-        if event.modifiers() == Qt.KeyboardModifier.AltModifier and key in moves:
-            self._move(moves[key])
-        else:
-            super().keyPressEvent(event)
+        if isinstance(event, QKeyEvent) and event.key() in moves:
+            is_alt = (
+                event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier == Qt.KeyboardModifier.AltModifier
+            )
+            if is_alt and event.type() in (QEvent.Type.ShortcutOverride, QEvent.Type.KeyPress):
+                if event.type() == QEvent.Type.KeyPress:
+                    self._move(moves[Qt.Key(event.key())])
+                event.accept()
+                return True
+        return super().event(event)
 
 
 class ListingAnswerView(AnswerView):

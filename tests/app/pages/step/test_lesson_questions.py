@@ -104,6 +104,16 @@ def test_a_digit_chooses_an_option_and_goes_to_no_stage(
     assert walk.standings[2] is DONE
 
 
+def test_alt_and_an_arrow_move_the_item_of_an_order_not_the_pin(window: MainWindow, qtbot: QtBot) -> None:
+    window.page.lessons.open("cutting-polygons", 2)
+    answer, pin = settled(window, qtbot).view.answer, window.session.moment.pin
+    first, second, *rest = answer.given()
+    answer.list.setFocus(Qt.FocusReason.TabFocusReason)
+    QTest.keyClick(answer.list, Qt.Key.Key_Down, Qt.KeyboardModifier.AltModifier)
+    assert answer.given() == [second, first, *rest]
+    assert window.session.moment.pin == pin
+
+
 def test_a_clicker_goes_back_to_the_end_of_the_lesson_before(window: MainWindow, qtbot: QtBot) -> None:
     lessons = window.page.lessons
     lessons.open("inside-or-outside")
