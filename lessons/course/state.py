@@ -1,6 +1,6 @@
 """What is open at a step of a lesson: settings, scene, and the texts of listings and shaders that it changes."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import radians
@@ -95,6 +95,13 @@ def edited_shader(step: StepPart) -> str:
     """Return which shader the solution of a step changes first; empty: none."""
     changes = step.solution.edit if step.solution is not None else ()
     return next((change[0] for change in changes if is_of_shader(change)), "")
+
+
+def wanted_settings(step: StepPart | None, panes: Collection[str]) -> dict[str, str]:
+    """Return the settings that the solution of a step changes, where the Methods pane is open for it."""
+    if step is None or step.solution is None or "methods" not in panes:
+        return {}
+    return dict(step.solution.settings)
 
 
 def with_shaders(scene: AnyScene, preset: str) -> Scene:

@@ -17,7 +17,15 @@ from PySide6.QtGui import (
     QPainter,
     QPen,
 )
-from PySide6.QtWidgets import QAbstractButton, QAccessibleWidget, QApplication, QScrollArea, QTabBar, QWidget
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QAccessibleWidget,
+    QApplication,
+    QScrollArea,
+    QScrollBar,
+    QTabBar,
+    QWidget,
+)
 
 from widgets.basics.theme import current_theme
 
@@ -95,11 +103,57 @@ def next_stop(stops: Sequence[QWidget], now: QWidget | None, *, is_forward: bool
 def give_focus(stop: QWidget, reason: Qt.FocusReason = Qt.FocusReason.TabFocusReason) -> None:
     """Give a stop the keyboard, and bring it into sight wherever it can be scrolled to."""
     stop.setFocus(reason)
-    above = stop.parentWidget()
+    for area in _scrolled_in(stop):
+        area.ensureWidgetVisible(stop, 8, 8)
+
+
+def _scrolled_in(widget: QWidget) -> Iterator[QScrollArea]:
+    above = widget.parentWidget()
     while above is not None:
         if isinstance(above, QScrollArea):
-            above.ensureWidgetVisible(stop, 8, 8)
+            yield above
         above = above.parentWidget()
+
+
+class KeptInSight(QObject):
+    """Keeps a part of a scrolled pane in sight while the pane is laid out, until somebody scrolls."""
+
+    def __init__(self, pane: QWidget) -> None:
+        super().__init__(pane)
+        self._part: QWidget | None = None
+        self._bars: list[QScrollBar] = []
+
+    def keep(self, part: QWidget | None) -> None:
+        """Scroll to a part, now and whenever it gets another place; ``None``: no longer."""
+        if self._part is not None:
+            self._part.removeEventFilter(self)
+        for bar in self._bars:
+            bar.rangeChanged.disconnect(self._scroll)
+            bar.actionTriggered.disconnect(self._let_go)
+        self._part, self._bars = part, []
+        if part is not None:
+            part.installEventFilter(self)
+            self._bars = [area.verticalScrollBar() for area in _scrolled_in(part)]
+            for bar in self._bars:
+                bar.rangeChanged.connect(self._scroll)
+                bar.actionTriggered.connect(self._let_go)
+            self._scroll()
+
+    @Slot()
+    def _scroll(self) -> None:
+        if self._part is not None:
+            for area in _scrolled_in(self._part):
+                area.ensureWidgetVisible(self._part, 8, 8)
+
+    @Slot()
+    def _let_go(self) -> None:
+        self.keep(None)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Scroll again where the part is moved."""
+        if event.type() in (QEvent.Type.Move, QEvent.Type.Resize, QEvent.Type.Show):
+            self._scroll()
+        return False
 
 
 def _stops(pane: QWidget) -> Iterator[QWidget]:

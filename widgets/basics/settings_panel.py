@@ -1,13 +1,13 @@
 """One choice per family of methods."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtGui import QStandardItem, QStandardItemModel
 from PySide6.QtWidgets import QComboBox, QGridLayout, QLabel, QToolButton, QWidget
 
-from widgets.basics.accessibility import ArrowGroup
+from widgets.basics.accessibility import ArrowGroup, KeptInSight
 from widgets.basics.controls import (
     ChoiceBox,
     button_with_tip,
@@ -70,6 +70,9 @@ class SettingsPanel(QWidget):
         self._headings: dict[str, QLabel] = {}
         """Heading of each family's group, by family."""
         self._body: QWidget | None = None
+        self._wanted: dict[str, str] = {}
+        """Values that a task wants, by family."""
+        self._sight = KeptInSight(self)
         self._layout = column_layout(self)
         self._empty = text_label("Choose the methods of each stage here.", self, role="muted")
         self._empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
@@ -97,12 +100,26 @@ class SettingsPanel(QWidget):
         if list(shown) != [setting.family for setting in settings] or self._body is None:
             self._build(settings)
             shown.clear()
+            self._seek()
         self._settings = settings
         for setting in settings:
             # A choice that was refused is still what the control shows.
             if setting != shown.get(setting.family) or self._shown_value(setting.family) != setting.current:
                 self._fill(setting)
         self._show_rows()
+
+    def show_wanted(self, values: Mapping[str, str]) -> None:
+        """Show the rows that a task is about, list the values that it wants, and scroll to the first row."""
+        if self._wanted or values:
+            self._wanted = dict(values)
+            for setting in self._settings:
+                self._fill(setting)
+            self._show_rows()
+            self._seek()
+
+    def _seek(self) -> None:
+        """Keep the first row that is wanted in sight, until the user acts."""
+        self._sight.keep(next((self._combos[each] for each in self._wanted if each in self._combos), None))
 
     @Slot(bool)
     def show_more(self, is_unfolded: bool) -> None:
@@ -125,7 +142,7 @@ class SettingsPanel(QWidget):
         self.more_button.setVisible(has_more)
         used: dict[QLabel, bool] = dict.fromkeys(self._headings.values(), False)
         for setting in self._settings:
-            is_shown = is_all or not setting.is_more
+            is_shown = is_all or not setting.is_more or setting.family in self._wanted
             for widget in (self._labels, self._combos, self._buttons):
                 widget[setting.family].setVisible(is_shown)
             if setting.family in self._headings:
@@ -135,7 +152,9 @@ class SettingsPanel(QWidget):
 
     def _offered(self, setting: Setting) -> list[SettingChoice]:
         """Return the choices of a family that its control lists."""
-        is_all = self.more_button.isChecked() or all(choice.is_more for choice in setting.choices)
+        more = {choice.value for choice in setting.choices if choice.is_more}
+        is_all = self.more_button.isChecked() or len(more) == len(setting.choices)
+        is_all |= self._wanted.get(setting.family) in more
         return [c for c in setting.choices if is_all or not c.is_more or c.value == setting.current]
 
     def combo(self, family: str) -> QComboBox:
@@ -235,6 +254,7 @@ class SettingsPanel(QWidget):
         combo = self.sender()
         if not isinstance(combo, QComboBox):
             return
+        self._sight.keep(None)
         family = combo.objectName()
         value = str(combo.itemData(place, Qt.ItemDataRole.UserRole))
         current = next(setting.current for setting in self._settings if setting.family == family)

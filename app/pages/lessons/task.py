@@ -15,7 +15,7 @@ from app.session.moment import Change
 from core import STAGES
 from core.scene import ClipScene
 from lessons.course.record import StepPart
-from lessons.course.state import State, States, edited_shader
+from lessons.course.state import State, States, edited_shader, wanted_settings
 from lessons.mistakes.shelf import SHELF
 from lessons.scene_edits import scene_digest
 from widgets.basics.accessibility import first_stop, give_focus
@@ -143,6 +143,7 @@ class LessonTask(QObject):
             kept = [name for name in page.desk_panes() if name in panes]
             if kept != page.desk_panes():
                 page.show_desk_panes(kept)  # What goes need not show the new state first.
+            page.settings_panel.show_wanted(wanted_settings(part, panes))
             self._show(shown, is_hidden=is_hidden, panes=panes)
             if stage := "" if part is None else edited_shader(part):
                 page.shader_pane.show_source(stage)
@@ -165,6 +166,7 @@ class LessonTask(QObject):
     def end(self) -> None:
         """Ask nothing and hide nothing any more; what is open stays."""
         self._home = self._part = None
+        self._page.settings_panel.show_wanted({})
         self.states.forget()
         self.answers.end()
         self._watch.end()

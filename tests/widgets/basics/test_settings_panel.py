@@ -1,7 +1,7 @@
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
-from PySide6.QtWidgets import QApplication, QToolButton
+from PySide6.QtWidgets import QApplication, QScrollArea, QScrollBar, QToolButton
 
 from tests.widgets.showing import shown
 from widgets.basics.settings_panel import Setting, SettingChoice, SettingsPanel
@@ -137,3 +137,25 @@ def test_the_button_of_a_row_asks_what_its_choice_is(qtbot, panel) -> None:
     with qtbot.waitSignal(panel.reference_requested) as asked:
         panel.findChildren(QToolButton, "fill")[0].click()
     assert asked.args == ["fill", "blocks"]
+
+
+def test_a_row_that_a_task_is_about_is_listed_and_in_sight_also_with_its_default(qtbot) -> None:
+    area = QScrollArea(widgetResizable=True)
+    panel = SettingsPanel()
+    area.setWidget(panel)
+    area.resize(300, 150)
+    rows = [Setting(f"row {place}", "Row", (SettingChoice("a", "A"),), "a") for place in range(12)]
+    ways = (SettingChoice("opaque", "Opaque"), SettingChoice("added", "Added", is_more=True))
+    blending = Setting("blend", "Blending", ways, "opaque", is_more=True)
+    shown(qtbot, area)
+    panel.show_wanted({"blend": "added"})
+    panel.show_settings([*rows, blending])  # what is asked for may be known before the rows are
+    combo = panel.combo("blend")
+    qtbot.waitUntil(lambda: not combo.visibleRegion().isEmpty())
+    assert (combo.isHidden(), combo.count()) == (False, 2)
+    area.verticalScrollBar().triggerAction(QScrollBar.SliderAction.SliderToMinimum)
+    panel.show_more(True)
+    assert combo.visibleRegion().isEmpty()  # whoever scrolls is left alone
+    panel.show_more(False)
+    panel.show_wanted({})
+    assert (combo.isHidden(), combo.count()) == (True, 1)
