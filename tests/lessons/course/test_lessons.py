@@ -52,6 +52,17 @@ def test_the_minutes_of_all_lessons_mean_the_same() -> None:
     assert far == {}
 
 
+def test_a_step_that_measures_says_how_long_that_takes() -> None:
+    silent = [
+        f"{name}, step {number}"
+        for name, lesson in catalogue.shipped().lessons.items()
+        for number, step in enumerate(lesson.steps, 1)
+        if step.kind == "measure"
+        and not re.search(r"\btakes? (a|about) .*(seconds?|minutes?)\b", f"{step.text} {step.task}")
+    ]
+    assert silent == []
+
+
 def test_the_order_names_each_lesson_once() -> None:
     assert catalogue.shipped().problems == ()
     names = list(chain(*catalogue.chapters().values()))
