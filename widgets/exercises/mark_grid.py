@@ -438,6 +438,7 @@ class ItemList(QListWidget):
         icon = QIcon() if mark is None else QIcon(mark_pixmap(mark, side, self.devicePixelRatioF()))
         self.item(row).setIcon(icon)
         self.item(row).setToolTip(tip if mark is not None else "")
+        self.updateGeometry()  # In large type a mark makes its item higher.
 
 
 def show_mark(label: QLabel, is_right: bool | None) -> None:

@@ -307,11 +307,14 @@ class LessonView(QWidget):
             self.answer.answer_changed.connect(self.answer_changed)
             self._answer_place.addWidget(self.answer)
             self.answer.show()
-        # The room of Check stays when the question is answered: Next keeps its place.
-        policy = self.check_button.sizePolicy()
-        policy.setRetainSizeWhenHidden(form is not None)
-        self.check_button.setSizePolicy(policy)
+        self._keep_room_of_check()
         self.set_asking(form is not None)
+
+    def _keep_room_of_check(self) -> None:
+        """Keep the room of Check when the question is answered, and so Next its place; a class needs the room."""
+        policy = self.check_button.sizePolicy()
+        policy.setRetainSizeWhenHidden(self.answer is not None and not self._is_presenting)
+        self.check_button.setSizePolicy(policy)
 
     def is_of_answer(self, widget: QWidget) -> bool:
         """Return whether a widget is a part of the answer's form."""
@@ -341,6 +344,7 @@ class LessonView(QWidget):
     def set_presenting(self, is_presenting: bool) -> None:
         """Fill the button that a clicker presses next, or Next; title and place are shown over the picture."""
         self._is_presenting = is_presenting
+        self._keep_room_of_check()
         for widget in (self.title, self.place, self.close_button):
             widget.setVisible(not is_presenting)
         self._show_return()

@@ -89,6 +89,8 @@ class InspectorColumn(QTabWidget):
         self.step.viewport().installEventFilter(self)
         self.setDocumentMode(True)
         self.tabBar().setDrawBase(False)
+        # What is not in sight takes no room: beside a lesson there may be less than a history wants.
+        self.history.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Ignored)
         self.addTab(self.step, "This step")
         self.addTab(self.history, "Pixel history")
         self.tabBarClicked.connect(self._choose)

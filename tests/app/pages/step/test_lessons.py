@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QPushButton
+from PySide6.QtWidgets import QApplication, QPushButton, QScrollBar
 from pytestqt.qtbot import QtBot
 
 from app.background import is_working
@@ -294,7 +294,8 @@ def test_no_step_stands_beside_a_whole_picture_and_a_listing_that_is_typed(
 @pytest.mark.slow
 @pytest.mark.own_window
 @pytest.mark.parametrize(
-    ("name", "step"), [("one-row", 3), pytest.param("spaces", 4, marks=pytest.mark.slow)]
+    ("name", "step"),
+    [("one-row", 3), *(pytest.param(name, 4, marks=pytest.mark.slow) for name in ("spaces", "one-addition"))],
 )
 def test_a_formula_beside_a_lesson_is_whole_before_a_class(
     window: MainWindow, qtbot: QtBot, name: str, step: int
@@ -302,18 +303,43 @@ def test_a_formula_beside_a_lesson_is_whole_before_a_class(
     window.appearance.set_theme("light")
     window.resize(1280, 720)
     window.presenter.arrange()
+    column = window.page.column
+    window.page.lessons.open("inside-or-outside", 3)  # Its answer leaves the history of a pixel.
+    settled(window, qtbot).task.reveal()
+    settled(window, qtbot)
+    window.page.settle()
+    assert column.history.view.isVisibleTo(column.history)
     window.page.lessons.open(name, step)
     walk = settled(window, qtbot)
     for _ in ("the question", "the answer"):
         window.page.settle()
-        column = window.page.column
         if column.isVisible():
             assert column.step.verticalScrollBar().maximum() == 0
             assert column.formula.height() >= column.formula.heightForWidth(column.formula.width())
             assert column.formula.visibleRegion().boundingRect() == column.formula.rect()
+            text = window.page.side.panes()[0]
+            assert text.geometry().bottom() < column.parentWidget().y(), "the formula is below the text"
             assert column.tabBar().visibleRegion().boundingRect().height() in (0, column.tabBar().height())
         walk.task.reveal()
         settled(window, qtbot)
+
+
+@pytest.mark.slow
+@pytest.mark.own_window
+@pytest.mark.parametrize(("name", "step"), [("cutting-polygons", 2), ("repair-a-listing", 5)])
+def test_a_list_or_a_listing_that_is_answered_does_not_scroll_before_a_class(
+    window: MainWindow, qtbot: QtBot, name: str, step: int
+) -> None:
+    window.appearance.set_theme("light")
+    window.resize(1280, 720)
+    window.presenter.arrange()
+    window.page.lessons.open(name, step)
+    settled(window, qtbot).task.reveal()
+    settled(window, qtbot)
+    window.page.settle()
+    side = window.page.side.panes()[0]
+    bars = side.findChildren(QScrollBar)
+    assert [bar.maximum() for bar in bars if bar.isVisible() and bar.maximum() > 0] == []
 
 
 def test_a_broken_lesson_is_refused_with_its_line(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
