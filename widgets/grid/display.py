@@ -1,5 +1,6 @@
 """What a pixel grid shows, without the pointer: a buffer, overlays, triangles and marks."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -281,19 +282,22 @@ class GridDisplay(QWidget):
             return []
         made_from = placement, self._geometry, theme, self._canvas.writing(placement, theme)
         if self._names is None or self._names[0] != made_from:
-            self._names = made_from, name_boxes(placement, self._geometry, theme, self._is_unwritten)
+            self._names = made_from, name_boxes(placement, self._geometry, theme, self._unwritten(placement))
         return self._names[1]
 
-    def _is_unwritten(self, box: QRectF) -> bool:
-        """Return whether neither a cell nor a ruler writes a number into a box."""
-        placement, theme, buffer = self.placement(), current_theme(), self._canvas.buffer
+    def _unwritten(self, placement: GridPlacement) -> Callable[[QRectF], bool]:
+        """Return what says whether neither a cell nor a ruler writes a number into a box."""
+        theme, buffer = current_theme(), self._canvas.buffer
         writing = self._canvas.writing(placement, theme)
-        rulers = self._canvas.rulers(placement, self.rect(), theme).beside
-        if not QRegion(box.toAlignedRect()).subtracted(rulers).isEmpty():
-            return False
-        return (
-            buffer is None or writing is None or not is_on_numbers(placement, writing, buffer.channels, box)
-        )
+        beside = self._canvas.rulers(placement, self.rect(), theme).beside
+
+        def is_unwritten(box: QRectF) -> bool:
+            is_beside = QRegion(box.toAlignedRect()).subtracted(beside).isEmpty()
+            if not is_beside or buffer is None or writing is None:
+                return is_beside
+            return not is_on_numbers(placement, writing, buffer.channels, box)
+
+        return is_unwritten
 
     def _written(self, placement: GridPlacement) -> QRegion:
         """Return what names and the numbers below the step's mark take."""

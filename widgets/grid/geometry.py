@@ -250,21 +250,22 @@ def paint_focus(
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     own = np.array(SIDES.get(len(corners), range(len(corners))), int)
     sides = [geometry.color(int(k)) for k in own]
-    ends = geometry.triangles[geometry.focus][geometry.sides[own]]
-    lines, source = widget_lines(geometry.edges(ends), placement)
+    lines, source = widget_lines(
+        geometry.edges(geometry.triangles[geometry.focus][geometry.sides[own]]), placement
+    )
     scale = theme.text_px / 13
     width = 1.2 if small else 2.2 * scale
     if free is not None:
         painter.setClipRegion(free)
     else:
         painter.setClipRect(placement.seen_raster)
+    # Round ends take eight times as long; where there are handles, these cover the ends.
+    ends = Qt.PenCapStyle.RoundCap if small else Qt.PenCapStyle.FlatCap
     for color, more in ((theme.edge_rim, RIM), (theme.edge_casing, CASING)):
-        painter.setPen(QPen(QColor(color), width + more, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+        painter.setPen(QPen(QColor(color), width + more, Qt.PenStyle.SolidLine, ends))
         painter.drawLines(lines)
     for line, index in zip(lines, source.tolist(), strict=True):
-        painter.setPen(
-            QPen(QColor(theme.vertex[sides[index]]), width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap)
-        )
+        painter.setPen(QPen(QColor(theme.vertex[sides[index]]), width, Qt.PenStyle.SolidLine, ends))
         painter.drawLine(line)
     if not small:
         scale *= handle_part(placement, geometry)

@@ -19,6 +19,7 @@ LINE_CELL = 6.0
 OUTLINED_CELL = 3.0
 """Side from which fragments that are as light or dark as the empty grid are outlined."""
 LEAST_CONTRAST = 3.0
+_LIGHT_OF_BYTES = linear_light(np.arange(256) / 255.0)
 CENTRE_CELL = 12.0
 """Side from which sample centres are drawn."""
 NUMBER_CELL = 40.0
@@ -45,7 +46,7 @@ def paint_image(painter: QPainter, placement: GridPlacement, image: QImage) -> N
     painter.save()
     # Below one screen pixel a cell, averaging tells more than picking some cells and losing others.
     painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, placement.cell < 1)
-    painter.drawImage(target, image, source)
+    painter.drawImage(target, image.convertToFormat(QImage.Format.Format_ARGB32_Premultiplied), source)
     painter.restore()
 
 
@@ -84,7 +85,7 @@ def paint_pale_edges(
     column1, row1 = min(cells[2] + 1, buffer.columns), min(cells[3] + 1, buffer.rows)
     shown = image.copy(column0, placement.rows - row1, column1 - column0, row1 - row0)
     pixels = np.frombuffer(shown.constBits(), np.uint8).reshape(shown.height(), -1, 4)[::-1, : shown.width()]
-    light = linear_light(pixels[..., 2::-1] / 255.0) @ LUMINANCE + 0.05
+    light = _LIGHT_OF_BYTES[pixels[..., 2::-1]] @ LUMINANCE + 0.05
     empty = relative_luminance(theme.empty) + 0.05
     known = holds_value[row0:row1, column0:column1]
     pale = known & (np.maximum(light, empty) < LEAST_CONTRAST * np.minimum(light, empty))
@@ -260,12 +261,12 @@ def number_boxes(
 def is_on_numbers(placement: GridPlacement, writing: Writing, line_count: int, box: QRectF) -> bool:
     """Return whether a box reaches into where the cells below it write their values, of so many lines each."""
     (left, top), (right, bottom) = map(placement.to_window, (box.topLeft(), box.bottomRight()))
-    for column in range(max(int(left), 0), min(int(right) + 1, placement.columns)):
-        for row in range(max(int(bottom), 0), min(int(top) + 1, placement.rows)):
-            cell = placement.cells_rect(column, row)
-            first = cell.center().y() + writing.top
-            if box.intersects(QRectF(cell.left(), first, cell.width(), line_count * writing.height)):
-                return True
+    if max(left, 0.0) >= min(right, placement.columns):
+        return False
+    for row in range(max(int(bottom), 0), min(int(top) + 1, placement.rows)):
+        first = placement.cells_rect(0, row).center().y() + writing.top
+        if box.top() < first + line_count * writing.height and first < box.bottom():
+            return True
     return False
 
 

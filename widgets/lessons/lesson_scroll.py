@@ -1,6 +1,6 @@
 """The room of a lesson's pane: as high as its text; where that is too much, it scrolls, its buttons always in sight."""
 
-from PySide6.QtCore import QEvent, QObject, QPoint, QSize, Qt, Signal, Slot
+from PySide6.QtCore import QCoreApplication, QEvent, QObject, QPoint, QSize, Qt, Signal, Slot
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QFrame, QLayout, QScrollArea, QSizePolicy, QWidget
 
@@ -81,7 +81,9 @@ class LessonScroll(QScrollArea):
         if is_put_off:
             return
         _invalidate(self._bar.layout())
-        self._bar.place.updateGeometry()
+        QCoreApplication.sendPostedEvents(
+            self._bar, QEvent.Type.LayoutRequest.value
+        )  # Not after the pane's own.
         _invalidate(layout)
 
     def take_room(self, width: int, wanted: int, most: int) -> None:

@@ -1,7 +1,7 @@
 """The inspector: the step in words, formula, listing and variables; and what is said of it aloud."""
 
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal, Slot
-from PySide6.QtGui import QAccessible
+from PySide6.QtGui import QAccessible, QResizeEvent
 from PySide6.QtWidgets import QFrame, QScrollArea, QSizePolicy, QTabWidget, QWidget
 
 from app.session.moment import Cursor, Moment
@@ -129,6 +129,14 @@ class InspectorColumn(QTabWidget):
                 self._width = width
                 self._forget_heights()
         return super().eventFilter(watched, event)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Give the pages their room: while hidden, Qt would first lay them out for the room that they had before."""
+        super().resizeEvent(event)
+        pages = self.currentWidget().parentWidget()
+        if not self.isVisible() and pages is not None:
+            top = self.tabBar().sizeHint().height()
+            pages.setGeometry(0, top, self.width(), self.height() - top)
 
     def set_presenting(self, is_presenting: bool) -> None:
         """Leave out the stage's card, or bring it back."""

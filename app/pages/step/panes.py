@@ -134,9 +134,9 @@ class RefreshOrder(QObject):
 
     @Slot(Change)
     def _follow(self, what: Change) -> None:
-        """Show the moment: who shows another document shows its step and its pin, too."""
+        """Show the moment: who shows another document shows its step and its pin, too, and what is asked."""
         if Change.DOCUMENT in what:
-            what &= ~(Change.CURSOR | Change.POINTING)
+            what &= ~(Change.CURSOR | Change.POINTING | Change.PREDICTING)
         bits = what.value
         for changes, show in self._order:
             if changes & bits:
