@@ -21,6 +21,12 @@ KEPT_TEXTS = {
 }
 COUNTED = {"drawn": "{} drawn", "tested": "{} tested", "seen": "{} seen"}
 """Names of numbers that are counts of pixels, and what is said of these."""
+_RIGHT = {
+    "twice": "draws no pixel twice",
+    "differs": "still draws the right picture",
+    "nothing": "still draws something",
+}
+"""What a method does that does not fail."""
 OF_EDITED = {"drawn": "{} drawn by your version", "twice": "{} drawn twice by your version"}
 _EDITED = re.compile(r"edited\((\w+)(?:\((\d+), (\d+)\))?\) [=<>!]")
 """A number that is asked of the edited listings: of the picture, or at a pixel."""
@@ -56,8 +62,7 @@ def _some(until: UntilPart, situation: Situation, start: Situation) -> str:
 
 def _none(until: UntilPart, situation: Situation, start: Situation) -> str:
     count = max(int(np.count_nonzero(flags_of(condition, situation.trace))) for condition in until.none)
-    said = "step of this stage still does" if count == 1 else "steps of this stage still do"
-    return f"{count:,} {said} what none should do"
+    return f"{count:,} {'step is' if count == 1 else 'steps are'} left that the task wants gone"
 
 
 def _counted(until: UntilPart, situation: Situation, start: Situation) -> str:
@@ -99,7 +104,7 @@ def _fails(until: UntilPart, situation: Situation, start: Situation) -> str:
     assert until.fails is not None
     if fails_on(until.fails, situation, until.fails.weak):
         return f"{_titles(until.fails.robust)} should stay right, and fails, too"
-    return f"{_titles(until.fails.weak)} does not fail"
+    return f"{_titles(until.fails.weak)} {_RIGHT[until.fails.by]}"
 
 
 def _titles(chosen: Mapping[str, str]) -> str:

@@ -187,12 +187,15 @@ def are_close(one: Number, other: Number, tolerance: float) -> bool:
     return abs(float(one) - float(other)) <= tolerance or isclose(one, other, rel_tol=1e-12)
 
 
-def is_one_digit_off(one: Number, other: Number) -> bool:
-    """Return whether two numbers differ in one digit, or in the sign alone, as they are written."""
+def is_one_digit_off(one: Number, other: Number, least: int = 1) -> bool:
+    """Return whether two numbers of ``least`` digits differ in one, or in the sign alone, as they are written."""
     if is_infinite(one) or is_infinite(other) or one == other:
         return False
     if one == -other:
         return True
-    texts = [str(value) if isinstance(value, Fraction) else f"{value:.6g}" for value in (one, other)]
-    first, second = texts
-    return len(first) == len(second) and sum(a != b for a, b in zip(first, second, strict=True)) == 1
+    first, second = (
+        f"{float(value):.12g}" if isinstance(value, Fraction) else f"{value:.6g}" for value in (one, other)
+    )
+    if len(first) != len(second) or len(second.replace(".", "").lstrip("-0")) < least:
+        return False
+    return sum(a != b for a, b in zip(first, second, strict=True)) == 1

@@ -53,7 +53,7 @@ from widgets.lessons.lesson_view import LessonView
 
 
 RIGHT, SHOWN = "Right.", "This is the answer."
-UNKNOWN = "It is none of the known mistakes. Try again, or choose Reveal: that shows the step."
+UNKNOWN = "There is no hint for this answer. Try again, or choose Reveal: that shows the step."
 
 
 @dataclass(frozen=True, eq=False)

@@ -277,12 +277,12 @@ class Entry(Cell):
             for mine, its in zip(_parts(one), _parts(other), strict=True)
         )
 
-    def is_digit_off(self, one: Value, other: Value) -> bool:
-        """Return whether two values differ by one digit, or the sign, of a number."""
+    def is_digit_off(self, one: Value, other: Value, least: int = 1) -> bool:
+        """Return whether two values differ by the sign of a number, or one digit of at least so many."""
         if self.kind not in ("number", "crossing") or one is None or other is None:
             return False
         (*words, mine), (*its_words, its) = _parts(one), _parts(other)
-        return words == its_words and None not in (mine, its) and is_one_digit_off(mine, its)
+        return words == its_words and None not in (mine, its) and is_one_digit_off(mine, its, least)
 
     def text(self, value: Value) -> str:
         """Return a value as it was understood; an empty cell as ``...``."""

@@ -99,7 +99,8 @@ class OrderAnswer(Answer):
         """Score an order."""
         run = longest_run(response)
         marks = {"right": run if len(run) > 1 else []}
-        return Verdict(self._score(len(run)), f"{len(run)} of {len(response)} in a row right", marks)
+        counts = f"{len(run)} of {len(response)} in a row right" if len(run) > 1 else "no two in a row right"
+        return Verdict(self._score(len(run)), counts, marks)
 
     def is_slip(self, response: Order) -> bool:
         """Two neighbours are exchanged."""

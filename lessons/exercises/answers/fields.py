@@ -88,13 +88,13 @@ class FieldAnswer(Answer):
         return not self._differences(self.rows(one), self.rows(other))
 
     def is_slip(self, response: Any) -> bool:
-        """One cell alone is wrong, by a digit or a sign."""
+        """One cell alone is wrong, by a digit or a sign; of one number, 2 and 3 are two answers."""
         wrong = self.wrong(response)
         if len(wrong) != 1:
             return False
         ((row, column),) = wrong
         mine, right = self.rows(response)[row][column], self.expected(response)[row][column]
-        return self.cells[row][column].is_digit_off(mine, right)
+        return self.cells[row][column].is_digit_off(mine, right, 2 if sum(map(len, self.cells)) == 1 else 1)
 
 
 @dataclass(frozen=True)
@@ -235,7 +235,8 @@ class NumberAnswer(FieldAnswer):
         if not wrong or not (self.names or self.shape):
             return ""
         row, column = wrong[0]
-        return f"The first number that is wrong: {self.cells[row][column].label}."
+        label = self.cells[row][column].label
+        return f"The first number that is wrong: {f'“{label}”' if self.names else label}."
 
     def random(self, draws: Draws) -> Numbers:
         """Guess numbers of the size and the fineness of the right ones."""

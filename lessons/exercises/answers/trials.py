@@ -138,8 +138,21 @@ class BreakAnswer(Answer):
     def check(self, response: Values) -> Verdict:
         """Run both methods."""
         weak, robust = self._failing(response)
-        counts = f"the weak method {_failed(weak)}, the other {_failed(robust)}"
+        first, second = self._titles
+        counts = f"“{first}” {_failed(weak)}, “{second}” {_failed(robust)}"
         return Verdict(float(weak and not robust), counts)
+
+    @property
+    def _titles(self) -> tuple[str, str]:
+        """The names of the weak and the robust method, in the family in which they differ."""
+        weak, robust = self.weak, self.robust
+        family = next(name for name in FAMILIES if getattr(weak, name) != getattr(robust, name))
+        first, second = (table.get(family, getattr(each, family)).title for each in (weak, robust))
+        return first, second
+
+    def reason(self, response: Values) -> str:
+        """Say when a method fails."""
+        return f"A method fails where {self.rule}."
 
     def _failing(self, response: Values) -> tuple[bool, bool]:
         if response not in self._found:

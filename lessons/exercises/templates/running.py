@@ -129,7 +129,7 @@ def draw_affine(draws: Draws) -> Draft:
     answer = breaking(draws, dials, (Fraction(1),), scene_of, weak, robust, partial(is_farther, limit), rule)
     given = f"u is {span} at vertex 1 and 0 at the others, whose w is 1."
     asked = f"""Choose w of vertex 1 so that affine interpolation fails and affine interpolation that is
-        corrected every 8 pixels does not. Both are compared with perspective.
+        corrected every 8 pixels does not. Both are compared with perspective, and fail where {rule}.
         Hint: With equal w nothing is wrong.
         Hint: The farther the values of w are apart, the larger is the error of both.
         Hint: Half way from vertex 0 to 1, affine gives {span}/2 and perspective ({span}/w) / (1 + 1/w).

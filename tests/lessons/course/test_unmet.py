@@ -26,7 +26,7 @@ def test_steps_that_none_should_do_are_counted() -> None:
     lesson = shipped().lessons["row-by-row"]
     start, until = situation_of(States(lesson).of_step(4)), lesson.steps[4].until
     assert until is not None
-    assert unmet(until, start, start) == "Not yet: 71 steps of this stage still do what none should do."
+    assert unmet(until, start, start) == "Not yet: 71 steps are left that the task wants gone."
 
 
 @pytest.mark.parametrize(

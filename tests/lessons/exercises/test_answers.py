@@ -156,8 +156,7 @@ def test_numbers_are_right_together_but_for_near_misses() -> None:
     )
     assert [priced.check(priced.read(text)).score for text in ("5", "-5", "4")] == [1, 0.5, 0]
     assert priced.credit == "The number earns all points. The sign costs half."
-    assert priced.is_slip(priced.read("4"))
-    assert not priced.is_slip(priced.read("15"))
+    assert not priced.is_slip(priced.read("4"))
     matrix = NumberAnswer(tuple(map(Fraction, range(4))), (2, 2))
     assert matrix.check(matrix.read([[0, 1], [2, "3"]])).score == 1
 
@@ -223,3 +222,10 @@ def test_draws_are_those_of_every_machine() -> None:
 
 
 EXPECTED_DRAWS = [6, 6, 6, 1, 4, 3, 4, 1], tuple("edfacb"), 0
+
+
+def test_a_slip_in_the_only_number_is_one_digit_of_several_or_the_sign() -> None:
+    for right, given in (("13", "12"), ("0.17", "0.19"), ("4", "-4")):
+        assert NumberAnswer((Fraction(right),)).is_slip((Fraction(given),)), (right, given)
+    for right, given in (("2", "0"), ("-4", "-1"), ("0.5", "0.7"), ("31", "12")):
+        assert not NumberAnswer((Fraction(right),)).is_slip((Fraction(given),)), (right, given)

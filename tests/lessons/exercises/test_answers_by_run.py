@@ -171,8 +171,9 @@ def test_whatever_breaks_only_the_weak_method_counts() -> None:
         if BROKEN.check(values).score
     ]
     assert len(found) > 5
-    assert BROKEN.check(found[0]).counts == "the weak method fails, the other does not fail"
-    assert BROKEN.check(BROKEN.start).counts == "the weak method does not fail, the other does not fail"
+    weak, robust = "“Inclusive (>= 0)”", "“Left and bottom edges (top-left rule, y up)”"
+    assert BROKEN.check(found[0]).counts == f"{weak} fails, {robust} does not fail"
+    assert BROKEN.check(BROKEN.start).counts == f"{weak} does not fail, {robust} does not fail"
     assert BROKEN.read({"y": "5", "x": "6.5"}) == BROKEN.reference
 
 

@@ -48,7 +48,7 @@ def test_a_question_hides_its_scene_until_it_is_answered(
 def test_a_wrong_answer_is_refuted_and_twice_wrong_offers_the_step(
     window: MainWindow, qtbot: QtBot, walk: LessonWalk
 ) -> None:
-    assert answered(walk, qtbot, 3).startswith("Not yet.\nIt is none of the known mistakes.")
+    assert answered(walk, qtbot, 3).startswith("Not yet.\nThere is no hint for this answer.")
     walk.return_here()
     settled(window, qtbot)
     assert answered(walk, qtbot, 25) == "That would be right if each edge counted."
