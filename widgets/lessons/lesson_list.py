@@ -149,9 +149,12 @@ class LessonPartView(QWidget):
     def set_open(self, is_open: bool) -> None:
         """Show the cards, or fold them away."""
         self._is_open = is_open
-        self._group.setVisible(is_open)
-        self.button.setArrowType(Qt.ArrowType.DownArrow if is_open else Qt.ArrowType.RightArrow)
-        self.button.setAccessibleDescription("shown" if is_open else "folded away")
+        self._show_cards(is_open)
+
+    def _show_cards(self, is_shown: bool) -> None:
+        self._group.setVisible(is_shown)
+        self.button.setArrowType(Qt.ArrowType.DownArrow if is_shown else Qt.ArrowType.RightArrow)
+        self.button.setAccessibleDescription("shown" if is_shown else "folded away")
 
     def show_only(self, words: Sequence[str]) -> int:
         """Show the lessons that have all ``words`` in their texts, and return their number; no words: as before."""
@@ -160,7 +163,7 @@ class LessonPartView(QWidget):
         ]
         for card, is_found in zip(self.cards, found, strict=True):
             card.setHidden(not is_found)
-        self._group.setVisible(bool(words) or self._is_open)
+        self._show_cards(bool(words) or self._is_open)
         self.setVisible(any(found))
         return sum(found)
 
