@@ -99,7 +99,9 @@ class StartPage(Page):
         self.search.returnPressed.connect(self._open_first)
         self.none_found = text_label(NONE_FOUND, self, role="muted")
         self.none_found.hide()
+        self.cards.hide()  # Below the lessons, whose height is not known yet.
         self.lessons = LessonsPresenter(self.lesson_list, self)
+        self.lessons.job.ended.connect(self._show_scenes)
         self.lessons.lesson_requested.connect(self.lesson_requested)
         self.lessons.place_changed.connect(self._show_place)
         self.lessons.refused.connect(self.edit_refused)
@@ -107,6 +109,7 @@ class StartPage(Page):
         self.lesson_button.clicked.connect(self.lessons.go_on)
         self.lesson_button.setProperty("role", "primary")
         self.lesson_button.hide()
+        self._keep_room(True)
         self.begin_button = button_with_tip(
             "Begin with one triangle", "Open the scene with one triangle", self
         )
@@ -194,6 +197,18 @@ class StartPage(Page):
             self._recent_rows.addWidget(button)
         if not self._recent_rows.count():
             self._recent_rows.addWidget(text_label("No files yet.", self._recent, role="muted"))
+
+    @Slot()
+    def _show_scenes(self) -> None:
+        """Show the scenes where they stay: the lessons above them are there, or cannot be listed."""
+        self._keep_room(False)
+        self.cards.show()
+
+    def _keep_room(self, is_kept: bool) -> None:
+        """Let the button of the lesson have its room before it is known which one it is."""
+        policy = self.lesson_button.sizePolicy()
+        policy.setRetainSizeWhenHidden(is_kept)
+        self.lesson_button.setSizePolicy(policy)
 
     @Slot(str)
     def _find(self, text: str) -> None:

@@ -56,6 +56,21 @@ def test_pictures_are_drawn_ahead_of_the_eye_and_no_further(window: MainWindow, 
 
 
 @pytest.mark.own_window
+def test_nothing_moves_when_the_lessons_are_there(window: MainWindow, qtbot: QtBot) -> None:
+    window.resize(1280, 800)
+    window.pages.show_page("start")
+    page = window.pages.current
+    QApplication.processEvents()
+    assert page.lessons.place is None
+    parts = (page.begin_button, page.now_label, page.guide_button, page.search, page.lesson_list, page.cards)
+    before = {part: part.mapTo(page, QPoint()) for part in parts if part.isVisible()}
+    qtbot.waitUntil(lambda: page.lessons.place is not None)
+    QApplication.processEvents()
+    assert page.cards.isVisible()
+    assert before == {part: part.mapTo(page, QPoint()) for part in before}
+
+
+@pytest.mark.own_window
 def test_what_is_in_sight_is_drawn_first(window: MainWindow, qtbot: QtBot) -> None:
     window.pages.show_page("start")
     page = window.pages.current
