@@ -114,7 +114,7 @@ class _Border(QSplitterHandle):
         return super().event(event)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint the line, longer under the pointer, and the focus ring."""
+        """Paint the line, longer under the pointer, and the focus ring close around its middle."""
         del event
         theme = current_theme()
         with QPainter(self) as painter:
@@ -133,7 +133,8 @@ class _Border(QSplitterHandle):
             if not is_upright:
                 line = QRect(middle.x() - length // 2, middle.y(), length, 2)
             painter.fillRect(line, QColor(theme.muted_text))
-            self._ring.paint(painter, self.rect())
+            across = (6, 0, -6, 0) if is_upright else (0, 6, 0, -6)
+            self._ring.paint(painter, self._grip().adjusted(*across))
 
 
 class PaneSplitter(QSplitter):
