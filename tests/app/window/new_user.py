@@ -52,14 +52,17 @@ class NewUser:
         assert [line for line in lines if not line.startswith(OFFSCREEN)] == [], said
 
     def find(self, kind: type[Kind], name: str) -> Kind:
-        """Return the widget in sight that is called so, by what a screen reader says or by what it writes."""
+        """Return the widget that is called so, by what a screen reader says or what it writes, once it is in sight."""
+        self._qtbot.waitUntil(lambda: bool(self._in_sight(kind, name)))
+        return self._in_sight(kind, name)[0]
+
+    def _in_sight(self, kind: type[Kind], name: str) -> list[Kind]:
         found = []
         for widget in self.window.findChildren(kind):
             written = widget.text() if isinstance(widget, QAbstractButton) else ""
             if widget.isVisible() and name in (widget.accessibleName(), written):
                 found.append(widget)
-        assert found, (kind.__name__, name)
-        return found[0]
+        return found
 
     def press(self, keys: str) -> None:
         """Press a key where the focus is."""
