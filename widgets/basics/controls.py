@@ -412,7 +412,8 @@ class ChoiceBox(QComboBox):
         while len(rows) < self._most_rows - 1 and metrics.horizontalAdvance(rest) > room:
             line = layout.createLine()
             line.setLineWidth(room)
-            rows.append(rest[: line.textLength()].strip())
+            row = rest[: line.textLength()].strip()
+            rows.append(metrics.elidedText(row, Qt.TextElideMode.ElideRight, room))  # A long word.
             rest = rest[line.textLength() :]
         layout.endLayout()
         return [*rows, metrics.elidedText(rest, Qt.TextElideMode.ElideRight, room)]

@@ -31,3 +31,13 @@ def test_no_choice_is_cut_off(qtbot: QtBot, theme: Theme, count: int) -> None:
     assert view.viewport().height() >= needed
     box.hidePopup()
     apply_theme(application, LIGHT)
+
+
+def test_a_word_that_is_longer_than_a_box_is_shortened_not_cut(qtbot) -> None:
+    box = ChoiceBox(most_rows=3)
+    qtbot.addWidget(box)
+    box.addItem("Bresenham, integers")
+    box.resize(90, 60)
+    rows = box.shown_rows()
+    assert rows[0].endswith("…")
+    assert max(map(box.fontMetrics().horizontalAdvance, rows)) < box.width()
