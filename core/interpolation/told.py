@@ -156,7 +156,7 @@ def weights(step: StepValues) -> Said:
     w = step.vector("corner_w")
     if step.kind == "perspective" and min(w) != max(w):
         in_window = window_weights(np.array(values), np.array(w)).tolist()
-        text += f" (divided by w; in the window {listed(in_window)})"
+        text += f" after the division by w (in the window {listed(in_window)})"
     text += below_zero(values)
     if any(map(math.isnan, values)):
         text += "; NaN means that the sum is 0"

@@ -118,7 +118,7 @@ def _weights(values: Values) -> str:
     text = f"weights {joined([exact_text(w) for w in values['weights']])}"
     if "in_window" not in values:
         return text
-    return f"{text} (divided by w; in the window {joined([exact_text(w) for w in values['in_window']])})"
+    return f"{text} after the division by w (in the window {joined([exact_text(w) for w in values['in_window']])})"
 
 
 def _shaded(values: Values) -> str:

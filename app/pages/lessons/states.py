@@ -94,13 +94,13 @@ def recall_record(
     draft, template = question.draft, question.template
     asking = (each for each in course.lessons.values() if each.head.get("recall") == template.name)
     about = course.recalled(lesson if lesson.part.recall == template.name else next(asking, lesson))
-    whence = f"From the lesson “{about.title}”" if about else f"From the exercise “{template.title}”"
+    whence = f"lesson “{about.title}”" if about else f"exercise “{template.title}”"
     return LessonStepRecord(
         title=lesson.title,
         text="\n".join(filter(None, (draft.text, numbers_of(draft)))),
         number=-1,
         standings=tuple(standings),
-        lead=f"{whence}. You may skip it: choose Begin.",
+        lead=f"First, a question from the {whence}. To skip it, choose Begin.",
         next_title="Begin",
         has_previous=False,
     )

@@ -55,7 +55,9 @@ QUESTIONS: dict[str, tuple[Script, list[str]]] = {
             ("type_into", "vertex 0 x", "12.5"),
             (CLICKED, 30, 20),
         ],
-        ["Weights 0.5022, 0.3179 and 0.1798 (divided by w; in the window 0.3515, 0.3338 and 0.3147)."],
+        [
+            "Weights 0.5022, 0.3179 and 0.1798 after the division by w (in the window 0.3515, 0.3338 and 0.3147)."
+        ],
     ),
     "who wins in the z-buffer": (
         [("open", "Intersecting triangles"), (CLICKED, 30, 22)],

@@ -203,11 +203,15 @@ def test_an_exercise_without_a_picture_has_none_and_names_its_lesson(
 ) -> None:
     text = GOOD.replace("minutes = 5", 'minutes = 5\nrecall = "edge-values"')
     walk = opened(window, qtbot, tmp_path / "with-picture", 0, text)
-    assert walk.view.lead.text() == "From the lesson “Inside or outside?”. You may skip it: choose Begin."
+    assert walk.view.lead.text() == (
+        "First, a question from the lesson “Inside or outside?”. To skip it, choose Begin."
+    )
     assert window.page.main_view() is walk.task.grid
     text = text.replace("edge-values", "divide-by-w")
     walk = opened(window, qtbot, tmp_path / "without-picture", 0, text)
-    assert walk.view.lead.text() == "From the exercise “The divide by w”. You may skip it: choose Begin."
+    assert walk.view.lead.text() == (
+        "First, a question from the exercise “The divide by w”. To skip it, choose Begin."
+    )
     shown = window.page.main_view()
     assert isinstance(shown, PixelGrid)
     assert shown.buffer() is None

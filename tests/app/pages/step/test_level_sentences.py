@@ -82,7 +82,7 @@ def test_a_row_says_what_decided_and_what_it_did() -> None:
     assert first.count("Pixel (") == 1
     assert re.fullmatch(
         r"Pixel \(8, 6\) of triangle 0: corners 0, 1 and 2 have weights .*, their parts of the sum "
-        r"\(divided by w; in the window .*\)\. "
+        r"after the division by w \(in the window .*\)\. "
         r"Its colour is \(.*\), the weighted sum of the corners' values\.",
         next(said(make_scene("single-triangle"), "interpolate", Level.PIXEL)),
     )
