@@ -27,6 +27,7 @@ from app.views.scene_picture import (
 from app.views.view_space import (
     LARGEST_WITH_CAMERA,
     ViewSpace,
+    fitted_home,
     is_scene_asked,
     is_scene_lit,
     make_space,
@@ -332,7 +333,7 @@ class Scene3dPresenter(QObject):
     def _fitted_home(self, space: ViewSpace) -> Orbit:
         """Return the orbit that shows the whole space in the picture as it is now."""
         width, height = self._view.picture_size()
-        return fitted(space.home, space.center, space.radius, width / height)
+        return fitted_home(space, width / height)
 
     @Slot(object)
     def _turned(self, orbit: Orbit) -> None:

@@ -6,6 +6,7 @@ takes the same way back.
 """
 
 from dataclasses import dataclass, replace
+from itertools import product
 from math import inf
 
 import numpy as np
@@ -29,7 +30,7 @@ from core.transform.matrices import projection, transform, world_to_camera
 from core.transform.traced import SPACES, is_dropped, spaces_reached, triangles_done
 from core.transform.vertex_stage import VertexStage
 from lessons.scene_edits import check_not_made, set_clip_corner
-from widgets.space.orbit import Orbit
+from widgets.space.orbit import Orbit, fitted, framed_from_eye
 
 # The space that the 3D view shows: the world of a scene, or the view volume of triangles in clip space.
 
@@ -58,6 +59,8 @@ class ViewSpace:
     """The whole view shows a sphere of this radius around ``center``."""
     home: Orbit
     """From where it is first seen."""
+    whole: Floats
+    """(N, 3) what the whole view shows: the meshes and their camera, or the box; of a model nothing, but the sphere."""
 
     @property
     def is_world(self) -> bool:
@@ -106,7 +109,8 @@ def make_space(scene: AnyScene, vertices: VertexStage) -> ViewSpace:
         aspect = width / height
         radius = float(np.sqrt(aspect**2 + 2))
         box: Floats = np.diag(np.array([aspect, 1.0, -1.0, 1.0]))
-        return ViewSpace(scene, vertices, box, (0.0, 0.0, 0.0), radius, Orbit(0.55, 0.3))
+        corners = np.array(list(product((-aspect, aspect), (-1.0, 1.0), (-1.0, 1.0))))
+        return ViewSpace(scene, vertices, box, (0.0, 0.0, 0.0), radius, Orbit(0.55, 0.3), corners)
     camera = scene.camera
     matrix: Floats = np.asarray(
         np.linalg.inv(projection(camera, width / height) @ world_to_camera(camera)), np.float64
@@ -114,16 +118,26 @@ def make_space(scene: AnyScene, vertices: VertexStage) -> ViewSpace:
     assert vertices.world is not None
     low, high = vertices.world[:, :3].min(axis=0), vertices.world[:, :3].max(axis=0)
     size = float(np.linalg.norm(high - low)) / 2
+    whole = vertices.world[:, :3]
     if scene_triangle_count(scene) > LARGEST_WITH_CAMERA:
+        whole = np.empty((0, 3))
         size = float(np.linalg.norm(vertices.world[:, :3] - (low + high) / 2, axis=1).max())
     elif np.linalg.norm(camera.eye - (low + high) / 2) < EYE_REACH * max(size, 1e-12):
         low, high = np.minimum(low, camera.eye), np.maximum(high, camera.eye)
         size = float(np.linalg.norm(high - low)) / 2
+        whole = np.concatenate([whole, camera.eye[None]])
     x, y, z = ((low + high) / 2).tolist()
     back = camera.eye - camera.target
     aside = MODEL_ASIDE if scene_triangle_count(scene) > LARGEST_WITH_CAMERA else CAMERA_ASIDE
     azimuth = float(np.arctan2(back[0], back[2])) + aside
-    return ViewSpace(scene, vertices, matrix, (x, y, z), max(size, 1e-9), Orbit(azimuth, 0.4))
+    return ViewSpace(scene, vertices, matrix, (x, y, z), max(size, 1e-9), Orbit(azimuth, 0.4), whole)
+
+
+def fitted_home(space: ViewSpace, aspect: float) -> Orbit:
+    """Return the orbit from which the whole space is first seen; ``aspect`` is width over height."""
+    if len(space.whole) and space.radius > 1e-9:
+        return framed_from_eye(space.home, space.whole, FIELD_OF_VIEW, aspect)
+    return fitted(space.home, space.center, space.radius, aspect)
 
 
 def viewing_camera(space: ViewSpace, orbit: Orbit) -> Camera:

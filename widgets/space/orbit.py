@@ -180,3 +180,31 @@ class ViewDepth:
         return refocused(
             orbit, float(self.distance[int(y * rows), int(x * columns)] - gone), self.field_of_view
         )
+
+
+def framed_from_eye(
+    orbit: Orbit,
+    points: NDArray[np.float64],
+    field_of_view: float,
+    aspect: float = 1.0,
+    margin: float = 1.2,
+) -> Orbit:
+    """Return the orbit from the same direction in which points (N, 3) just fill a view in perspective.
+
+    ``field_of_view`` is the vertical opening angle (radians), ``margin`` room for words at the border; points that are
+    not finite are left out.
+    """
+    finite = points[np.isfinite(points).all(axis=1)]
+    if not len(finite):
+        return orbit
+    axes, slope = orbit.axes(), tan(field_of_view / 2)
+    right, up, depth = (finite @ axes.T).T
+    middles, backs = [], []
+    for along, opening in ((right, slope * max(aspect, 0.1) / margin), (up, slope / margin)):
+        # Each point is seen if it is no farther aside than the opening lets it be at its depth.
+        high, low = float((along + opening * depth).max()), float((opening * depth - along).max())
+        middles.append((high - low) / 2)
+        backs.append((high + low) / (2 * opening))
+    target = np.array([*middles, float(depth.min() + depth.max()) / 2])
+    extent = min(max((max(backs) - float(target[2])) * slope, EXTENT_LIMITS[0]), EXTENT_LIMITS[1])
+    return _with_target(replace(orbit, extent=extent), target @ axes)

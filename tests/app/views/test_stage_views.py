@@ -15,7 +15,7 @@ from app.views.scene3d_presenter import ASKED, DRAWING
 from app.views.scene_picture import fractions
 from app.views.stage_views import StageViews
 from app.views.texture_footprint import no_texture_reason
-from app.views.view_space import make_space, step_marks, thinned, viewed_scene, viewing_camera
+from app.views.view_space import fitted_home, make_space, step_marks, thinned, viewed_scene, viewing_camera
 from core import Settings, render
 from core.fast_path.workers.band_workers import BandWorkers
 from core.transform.vertex_stage import transform_vertices
@@ -321,7 +321,7 @@ def test_all_of_the_space_stays_in_sight_at_another_size_until_it_is_turned(show
     _, views, widget = show("scene", "cube")
     home = widget.orbit()
     views.scene_presenter.choose_size("1920x1080")
-    assert widget.orbit() == home, "both are wider than high"
+    assert widget.orbit() == fitted_home(views.scene_presenter.space, 1920 / 1080)
     widget.resize(300, 500)
     views.scene_presenter.choose_size("view")
     assert widget.orbit().extent > home.extent

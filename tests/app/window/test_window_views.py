@@ -12,6 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from app.files.open_any import open_any
 from app.session.document import focus_on, open_document
+from app.views.view_space import fitted_home
 from app.window.main_window import MainWindow
 from core import STAGES, ClipScene, Settings
 from core.records.steps import Level
@@ -21,7 +22,6 @@ from tests.core.trace.trace_cases import LEFT_OUT
 from tests.covering import in_turn, is_everything
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import DARK, LIGHT, PRESENTER
-from widgets.space.orbit import fitted
 
 pytestmark = pytest.mark.shared_window
 
@@ -203,8 +203,5 @@ def test_the_first_picture_in_space_fits_its_view(qtbot: QtBot) -> None:
     assert presenter.drawn.shot.size == view.picture_size()
     assert view.chosen_orbit() is None
     width, height = view.picture_size()
-    assert (
-        presenter.drawn.shot.orbit.extent
-        == fitted(presenter.space.home, presenter.space.center, presenter.space.radius, width / height).extent
-    )
+    assert presenter.drawn.shot.orbit == fitted_home(presenter.space, width / height)
     cube.close()

@@ -2,7 +2,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from widgets.space.orbit import STEEPEST, Orbit, fitted, framed, panned, turned, zoomed
+from widgets.space.orbit import STEEPEST, Orbit, fitted, framed, framed_from_eye, panned, turned, zoomed
 
 ANGLES = st.floats(-3.0, 3.0)
 ORBITS = st.builds(
@@ -67,6 +67,18 @@ def test_framed_points_fill_the_view_and_stay_inside(orbit, aspect):
     inside = np.abs(placed) / [aspect, 1.0]
     assert inside.max() <= 1 + 1e-9
     assert np.isclose(inside.max(), 1.0)
+
+
+@given(ORBITS, st.floats(0.3, 3.0))
+def test_points_framed_in_perspective_fill_the_view_and_stay_inside(orbit, aspect):
+    points = np.array([[0.0, 0, 0], [3, 0, 1], [1, 2, -1], [np.nan, 0, 0]])
+    framed = framed_from_eye(orbit, points, 0.7, aspect, 1.0)
+    assert (framed.azimuth, framed.elevation) == (orbit.azimuth, orbit.elevation)
+    right, up, back = ((points[:3] - framed.eye(0.7)) @ framed.axes().T).T
+    assert (back < 0).all()
+    aside = np.abs([right / aspect, up]) / (-back * np.tan(0.35))
+    assert aside.max() <= 1 + 1e-6
+    assert np.isclose(aside.max(), 1.0, atol=1e-6)
 
 
 def test_fitting_a_radius_that_is_not_finite_shows_something():
