@@ -21,7 +21,8 @@ def shown(qtbot: QtBot, scene: str) -> tuple[Session, Phases, StageViews]:
     views = StageViews(session)
     Following(session, views)
     for _, _, widget in views.widgets:
-        qtbot.addWidget(widget)
+        # Before the widgets: it would draw into them after the next change of the theme.
+        qtbot.addWidget(widget, before_close_func=lambda _: views.deleteLater())
     views.show("flow")
     phases = next(widget for name, _, widget in views.widgets if name == "flow")
     assert isinstance(phases, Phases)
