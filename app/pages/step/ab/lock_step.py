@@ -1,6 +1,7 @@
 """Two runs of one stage that are stepped together: a fixed list of pairs of positions for each level."""
 
-from functools import lru_cache, partial
+from functools import partial
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -98,8 +99,20 @@ class LockStep:
         self.positions = position, int(pairs[self._index, 1]) if second is None else second
 
 
-@lru_cache(maxsize=len(Level))
+_KEPT: WeakKeyDictionary[StageTrace, WeakKeyDictionary[StageTrace, dict[Level, Integers]]] = (
+    WeakKeyDictionary()
+)
+"""Pairs that were found, for as long as both runs are there."""
+
+
 def _pairs(first: StageTrace, second: StageTrace, level: Level) -> Integers:
+    kept = _KEPT.setdefault(first, WeakKeyDictionary()).setdefault(second, {})
+    if level not in kept:
+        kept[level] = _found_pairs(first, second, level)
+    return kept[level]
+
+
+def _found_pairs(first: StageTrace, second: StageTrace, level: Level) -> Integers:
     runs = first, second
     ends = [run.steps.starts.searchsorted(run.steps.boundaries(min(level, Level.PIXEL))[1:]) for run in runs]
     begins, stops = [], []

@@ -1,5 +1,7 @@
 """Two runs in lock-step stand at the same pixel; who has no step there waits, and steps back undo steps forward."""
 
+import gc
+import weakref
 from collections import Counter
 from dataclasses import replace
 from itertools import pairwise
@@ -156,3 +158,12 @@ def test_the_text_says_who_waits_and_why() -> None:
         ("step 2 of 2", "step 2 of 3"),
         ("waits for B, step 2 of 2", "step 3 of 3"),
     ]
+
+
+def test_runs_that_were_stepped_together_are_let_go() -> None:
+    first, second = run([(0, 0, "s")]), run([(0, 0, "t")])
+    seen = weakref.ref(first), weakref.ref(second)
+    assert len(LockStep(first, second, Cursor()).pairs(Level.PIXEL)) == 2
+    del first, second
+    gc.collect()
+    assert [at() for at in seen] == [None, None]
