@@ -209,7 +209,7 @@ def compare(first: Side, second: Side) -> tuple[Side, Side, Side]:
         buffer=shown,
         # The colours show what both have reached.
         overlays=() if is_choice else (MaskOverlay("difference", CellMark.DIFFERENCE, one),),
-        geometry=first.geometry,
+        # No outlines: where both differ in few pixels, these lie along edges.
         pixel_center=first.pixel_center,
     )
     return first, second, difference
