@@ -113,6 +113,22 @@ def split_cells(latex: str, *, splits_products: bool = False) -> tuple[str, ...]
     return tuple(cell.strip() for cell in cells if cell.strip())
 
 
+def split_products(latex: str) -> tuple[str, ...]:
+    r"""Cut a cell around its top-level multiplication signs.
+
+    >>> split_products(r"a \cdot (b \cdot c)")
+    ('a', '\\cdot', '(b \\cdot c)')
+    """
+    cells, depth = [""], 0
+    for token in _TOKEN.findall(latex):
+        depth += (token in _OPENING) - (token in _CLOSING)
+        if depth == 0 and token in _PRODUCTS:
+            cells.extend((token, ""))
+        else:
+            cells[-1] += token
+    return tuple(cell.strip() for cell in cells if cell.strip())
+
+
 def _has_top_level_mark(tokens: Sequence[str]) -> bool:
     depth = 0
     for token in tokens:
@@ -130,6 +146,11 @@ def _ends_a_term(cells: Sequence[str]) -> bool:
 def is_operator(cell: str) -> bool:
     """Return whether a cell is a lone relation, sign or multiplication sign, which takes room on both sides."""
     return cell in _RELATIONS or cell in _SIGNS or cell in _PRODUCTS
+
+
+def is_product(cell: str) -> bool:
+    """Return whether a cell is a lone multiplication sign."""
+    return cell in _PRODUCTS
 
 
 def may_begin_line(cells: Sequence[str], place: int) -> bool:

@@ -4,11 +4,21 @@ import re
 from collections import OrderedDict
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import chain
 
 from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QFontMetricsF, QGuiApplication, QPainter
 
-from core.explain.latex import color_vertices, is_operator, may_begin_line, plain_text, split_cells, vertex_of
+from core.explain.latex import (
+    color_vertices,
+    is_operator,
+    is_product,
+    may_begin_line,
+    plain_text,
+    split_cells,
+    split_products,
+    vertex_of,
+)
 from core.explain.records import Formula
 from widgets.basics.theme import Theme, current_theme
 from widgets.inspector.typesetter import Typesetter, typesetter_font
@@ -29,6 +39,8 @@ OPERATOR_ROOM = 0.28
 """Room on both sides of an operator, as a share of the size."""
 WHOLE = 0
 """Stands for each width in which nothing of a formula is wrapped or shrunk."""
+LONG_CELL = 50
+"""Signs of a cell that is cut at its products, so that these can go on in the next line."""
 KEPT_LAYOUTS = 256
 """Formulas that are kept laid out, at their widths: one is asked for many times a step, and comes again."""
 
@@ -185,6 +197,9 @@ class FormulaSetter:
             stop, total = start, 0.0
             while stop < end:
                 after = next((k for k in range(stop + 1, end) if may_begin_line(cells, k)), end)
+                if columns.extent(stop, after) > limit:
+                    # Else it would shrink: a product goes on in the next line.
+                    after = next((k for k in range(stop + 1, after) if is_product(cells[k])), after)
                 step = columns.extent(stop, after)
                 if stop > start and total + step > limit:
                     break
@@ -346,7 +361,19 @@ def _aligned_cells(formula: Formula) -> tuple[tuple[str, ...], tuple[str, ...]]:
         numbers = split_cells(formula.substituted, splits_products=splits_products)
         if len(symbols) == len(numbers):
             break
+    if len(symbols) == len(numbers):
+        parts = [_aligned_parts(*cells) for cells in zip(symbols, numbers, strict=True)]
+        symbols, numbers = (tuple(chain(*(part[row] for part in parts))) for row in range(2))
     return symbols, numbers
+
+
+def _aligned_parts(symbols: str, numbers: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Cut a long cell around its multiplication signs, in both lines the same."""
+    if max(len(plain_text(symbols)), len(plain_text(numbers))) > LONG_CELL:
+        parts = split_products(symbols), split_products(numbers)
+        if len(parts[0]) == len(parts[1]):
+            return parts
+    return (symbols,), (numbers,)
 
 
 @lru_cache(4096)

@@ -257,6 +257,17 @@ def test_two_equations_are_parted_between_them(qtbot, view) -> None:
     assert all(line.pieces[0].left < 30 for line in view._lines)
 
 
+def test_a_product_that_has_no_room_goes_on_in_the_next_line(qtbot, view) -> None:
+    names = (r"\text{projectionMatrix}", r"\text{modelViewMatrix}", r"\text{position.xyzw of the vertex}")
+    product = " \\cdot ".join(names)
+    view.show_formula(Formula(f"p & = & {product}", f"4 & = & {product}"))
+    wait_for_typesetting(qtbot, view)
+    view.resize(300, 400)
+    texts = [[piece.latex for piece in line.pieces] for line in view._lines]
+    assert {line[0] for line in texts[2:]} <= {"=", "\\cdot"}
+    assert view._scale(view._lines) > 0.75
+
+
 def test_a_low_view_shows_lines_that_are_read_largest(qtbot, view) -> None:
     view.show_formula(EQUATIONS)
     wait_for_typesetting(qtbot, view)
