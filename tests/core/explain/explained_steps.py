@@ -212,7 +212,7 @@ def traces() -> dict[str, dict[str, Trace]]:
     corners = np.array([[[-0.8, -0.7, 0, 1], [0.9, -0.4, 0, 1], [0.1, 0.8, 0, 1]]])
     alone = ClipScene(corners, np.eye(3)[None], (16, 12))
     rare["smoothed"] = trace(alone, Settings(antialiasing="fxaa"))
-    turned = replace(make_scene("textured-floor"), size=(8, 6), motion=Motion(camera=(0.4, 0.0, 0.0)))
+    turned = replace(make_scene("textured-floor"), size=(8, 6), motion=Motion(camera=(0.4, 0.1, 0.0)))
     for history in ("kept", "reprojected", "clamped"):
         mixed = Settings(antialiasing="temporal", pictures=3, blend_share=40, history=history)
         rare[f"mixed, {history}"] = trace(turned, mixed, region=(0, 0, 8, 6))
