@@ -19,7 +19,8 @@ from widgets.exercises.choice_answers import (
     OrderAnswerView,
 )
 from widgets.exercises.field_answers import FieldAnswerView, PlaceAnswerView
-from widgets.exercises.mark_grid import AnswerView, ItemList, MarkGrid
+from widgets.exercises.mark_grid import AnswerView, MarkGrid
+from widgets.exercises.marked_items import ItemList
 from widgets.exercises.picture_answers import DialAnswerView, PixelAnswerView, SpotAnswerView
 from widgets.inspector.listing_editor import ListingEditor
 

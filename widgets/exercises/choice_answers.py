@@ -29,7 +29,8 @@ from widgets.basics.controls import (
 )
 from widgets.basics.drawing import Mark
 from widgets.basics.theme import current_theme, theme_notifier
-from widgets.exercises.mark_grid import AnswerView, ItemList, MarkGrid, show_mark
+from widgets.exercises.mark_grid import AnswerView, MarkGrid
+from widgets.exercises.marked_items import ItemList, show_mark
 
 # One of several options, or several of them.
 

@@ -11,7 +11,8 @@ from core.records.cells import Form, Marks
 from widgets.basics.accessibility import give_focus
 from widgets.basics.controls import column_layout, text_label
 from widgets.basics.typed_value import NumberEdit
-from widgets.exercises.mark_grid import AnswerView, MarkGrid, show_mark
+from widgets.exercises.mark_grid import AnswerView, MarkGrid
+from widgets.exercises.marked_items import show_mark
 
 # Text fields in rows and columns with their heads: Tab, arrows and Return go from one to the next.
 
