@@ -5,7 +5,7 @@ from enum import Enum
 from functools import lru_cache
 
 from PySide6.QtCore import QPointF, QRect, QRectF, QSizeF, Qt
-from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPainterPath, QPen, QPixmap, QPolygonF
+from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter, QPainterPath, QPen, QPixmap, QPolygonF
 
 from widgets.basics.theme import CLEAR, Theme, contrast, current_theme, text_font
 
@@ -48,7 +48,7 @@ def paint_share(painter: QPainter, room: QRect, share: float) -> None:
     painter.fillRect(full, QColor(theme.muted_text))
 
 
-def draw_mark(painter: QPainter, mark: Mark, box: QRectF) -> None:
+def draw_mark(painter: QPainter, mark: Mark, box: QRectF, theme: Theme | None = None) -> None:
     """Draw a mark inside a square box with the painter's present transform.
 
     Parameters
@@ -59,22 +59,29 @@ def draw_mark(painter: QPainter, mark: Mark, box: QRectF) -> None:
         Which shape.
     box : QRectF
         Square that the shape fills, in logical pixels.
+    theme : Theme, optional
+        Default: the present one.
     """
     painter.save()
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    _PAINTERS[mark](painter, box, current_theme())
+    _PAINTERS[mark](painter, box, theme or current_theme())
     painter.restore()
 
 
-def mark_pixmap(mark: Mark, side: int, ratio: float = 1.0, margin: float = 0.5) -> QPixmap:
-    """Return a mark as a pixmap of `side` logical pixels at a device pixel ratio, with a `margin` around it."""
-    pixmap = QPixmap(round(side * ratio), round(side * ratio))
-    pixmap.setDevicePixelRatio(ratio)
-    pixmap.fill(Qt.GlobalColor.transparent)
-    painter = QPainter(pixmap)
-    draw_mark(painter, mark, QRectF(margin, margin, side - 2 * margin, side - 2 * margin))
-    painter.end()
-    return pixmap
+def mark_pixmap(mark: Mark, side: int, ratio: float = 1.0) -> QPixmap:
+    """Return a mark as a pixmap of `side` logical pixels at a device pixel ratio."""
+    return QPixmap.fromImage(mark_image(mark, side, ratio, 0.5, current_theme()))
+
+
+@lru_cache(maxsize=64)
+def mark_image(mark: Mark, side: int, ratio: float, margin: float, theme: Theme) -> QImage:
+    """Return a mark as an image of `side` logical pixels at a device pixel ratio, with a `margin` around it."""
+    image = QImage(round(side * ratio), round(side * ratio), QImage.Format.Format_ARGB32_Premultiplied)
+    image.setDevicePixelRatio(ratio)
+    image.fill(0)
+    with QPainter(image) as painter:
+        draw_mark(painter, mark, QRectF(margin, margin, side - 2 * margin, side - 2 * margin), theme)
+    return image
 
 
 def _pen(color: str, box: QRectF, share: float = 0.16) -> QPen:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QGuiApplication, QImage, QPainter
 
-from widgets.basics.drawing import Mark, draw_mark, mark_pixmap
+from widgets.basics.drawing import Mark, mark_image
 from widgets.basics.theme import CLEAR, contrast, current_theme
 
 LANES = (Mark.COVERED, Mark.REJECTED, Mark.TIE, Mark.NAN, Mark.DEPTH_FAILED)
@@ -100,7 +100,7 @@ class RunView:
         side = lane_height()
         for number, mark in enumerate(self.run.lanes()):
             top = self.lanes.top() + number * side
-            draw_mark(painter, mark, QRectF(6.0, top, side, side))
+            _stamp(painter, mark, QPointF(6.0, top), side)
             if number:
                 line = QRectF(self.lanes.left(), top, self.lanes.width(), 1.0)
                 painter.fillRect(line, QColor(theme.panel))
@@ -117,11 +117,9 @@ class RunView:
         start, stop = np.searchsorted(steps, [self.first - 1.0, self.last])
         visible = steps[start:stop]
         if len(visible) * side <= lane.width() and _are_apart(visible, side / step_width):
-            # On whole pixels, from a picture: smooth lines are slow to draw.
-            stamp = mark_pixmap(mark, round(side), ratio, margin=0.0)
             lefts = self.lanes.left() + (visible + 0.5 - self.first) * step_width - side / 2
-            for left in (np.rint(lefts * ratio) / ratio).tolist():
-                painter.drawPixmap(QPointF(left, lane.top()), stamp)
+            for left in lefts.tolist():
+                _stamp(painter, mark, QPointF(left, lane.top()), side)
             return
         # One row of pixels, as wide as the lane, stretched over its height.
         columns = max(1, int(lane.width() * ratio))
@@ -149,7 +147,7 @@ class RunView:
                     tick = QRectF(middle - 1.0, 3.0, 2.0, side - 4.0)
                     painter.fillRect(tick, QColor(current_theme().text))
                 else:
-                    draw_mark(painter, mark, QRectF(middle - side / 2, 1.0, side, side))
+                    _stamp(painter, mark, QPointF(middle - side / 2, 1.0), side)
 
     def _paint_ruler(self, painter: QPainter) -> None:
         theme = current_theme()
@@ -170,6 +168,13 @@ class RunView:
             width = metrics.horizontalAdvance(text)
             left = min(max(x - width / 2, 2.0), farthest - width)
             painter.drawText(QPointF(left, top + 3.0 + metrics.ascent()), text)
+
+
+def _stamp(painter: QPainter, mark: Mark, place: QPointF, side: float) -> None:
+    """Draw a mark from a picture, on whole pixels: smooth lines are slow to draw."""
+    ratio = painter.device().devicePixelRatioF()
+    image = mark_image(mark, round(side), ratio, 0.0, current_theme())
+    painter.drawImage(QPointF(round(place.x() * ratio) / ratio, place.y()), image)
 
 
 def lane_height() -> int:
