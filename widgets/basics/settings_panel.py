@@ -111,9 +111,11 @@ class SettingsPanel(QWidget):
     def show_wanted(self, values: Mapping[str, str]) -> None:
         """Show the rows that a task is about, list the values that it wants, and scroll to the first row."""
         if self._wanted or values:
-            self._wanted = dict(values)
+            before, self._wanted = self._wanted, dict(values)
+            changed = {family for family, _ in before.items() ^ values.items()}
             for setting in self._settings:
-                self._fill(setting)
+                if setting.family in changed:
+                    self._fill(setting)
             self._show_rows()
             self._seek()
 

@@ -1,5 +1,6 @@
 """How the cells of a pixel grid are painted: colour, then lines, centres, numbers as zoom grows."""
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -190,7 +191,6 @@ def paint_numbers(
     """Write values into cells (column0, row0, column1, row1), in black or white, whichever is seen better."""
     font, height, width, top = writing
     dark, light = QColor("#000000"), QColor("#ffffff")
-    backdrop = QColor(theme.canvas)
     painter.save()
     painter.setFont(font)
     flags = Qt.AlignmentFlag.AlignCenter
@@ -200,8 +200,8 @@ def paint_numbers(
                 continue
             if buffer.is_cleared(column, row):
                 continue  # four zeros in every cell would hide what is drawn over them
-            color = image.pixelColor(column, placement.rows - 1 - row)
-            painter.setPen(dark if _is_light(color, backdrop) else light)
+            color = image.pixel(column, placement.rows - 1 - row)
+            painter.setPen(dark if _is_light(color, theme.canvas) else light)
             rect = placement.cells_rect(column, row)
             lines = buffer.lines_at(column, row, 4, width)
             first = rect.center().y() + top
@@ -270,15 +270,15 @@ def is_on_numbers(placement: GridPlacement, writing: Writing, line_count: int, b
     return False
 
 
-def _is_light(color: QColor, backdrop: QColor) -> bool:
-    """Return whether black text is seen better than white on a colour that lies on a backdrop."""
-    alpha = color.alphaF()
-    channels = (
-        (color.redF(), backdrop.redF()),
-        (color.greenF(), backdrop.greenF()),
-        (color.blueF(), backdrop.blueF()),
+@lru_cache(maxsize=1024)
+def _is_light(color: int, backdrop: str) -> bool:
+    """Return whether black text is seen better than white on a colour, as of `QRgb`, that lies on a backdrop."""
+    top, below = QColor.fromRgba(color), QColor(backdrop)
+    mixed = (
+        top.alphaF() * upper + (1 - top.alphaF()) * lower
+        for upper, lower in zip(top.getRgbF()[:3], below.getRgbF()[:3], strict=True)  # type: ignore[index]
     )
-    red, green, blue = ((alpha * top + (1 - alpha) * below) ** 2.2 for top, below in channels)
+    red, green, blue = (channel**2.2 for channel in mixed)
     return bool(0.2126 * red + 0.7152 * green + 0.0722 * blue > 0.18)
 
 
