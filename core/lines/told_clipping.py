@@ -198,6 +198,12 @@ def _codes(step: StepValues) -> tuple[int, int]:
     return step.whole("code_start"), step.whole("code_end")
 
 
+def _compared_code(symbol: str, code: int, wanted: str) -> Chain:
+    """Return an outcode beside the one of a point inside, in bits as in the table."""
+    bits, inside = upright(code_text(code)), Written(upright(code_text(0)))
+    return Chain((Written(symbol, bits), inside), ((wanted, r"\ne" if code else "="),))
+
+
 OUTCODE_VERDICTS = {
     "outcodes-accept": "it is drawn",
     "outcodes-reject": "it is dropped",
@@ -237,7 +243,7 @@ def codes(step: StepValues) -> Said:
 def accept(step: StepValues) -> Said:
     """Both ends inside."""
     start, end = (vector_text(step.vector(name)) for name in ("kept_start", "kept_end"))
-    tests = (named(f"c_{k}", code).compared("=") for k, code in enumerate(_codes(step)))
+    tests = (_compared_code(f"c_{k}", code, "=") for k, code in enumerate(_codes(step)))
     text = f"Both outcodes are 0000: the {step.nouns.edge} is drawn from {start} to {end}."
     return text, formula_of(concludes("draw", "draw", *tests))
 
@@ -250,7 +256,7 @@ def reject(step: StepValues) -> Said:
         f"Both outcodes have {code_text(first & second)} in common: the {step.nouns.edge} lies outside "
         f"{borders_of(first & second)}, and nothing of it is drawn."
     )
-    test = named(r"c_0 \land c_1", first & second).compared(r"\ne")
+    test = _compared_code(r"c_0 \land c_1", first & second, r"\ne")
     return text, formula_of(concludes("drop", "drop", test))
 
 
@@ -259,7 +265,7 @@ def chosen_end(step: StepValues) -> Said:
     """The end that moves: the first one, unless it is inside."""
     k = step.whole("moved_end")
     text = f"{('The first', 'Only the second')[k]} end is outside, so it moves."
-    test = named(f"c_{k}", _codes(step)[k]).compared(r"\ne")
+    test = _compared_code(f"c_{k}", _codes(step)[k], r"\ne")
     return text, formula_of(concludes("moves", "moves", test))
 
 
