@@ -21,7 +21,7 @@ from core import Settings, Trace
 from core.explain.step_tables import largest_tables
 from core.records.steps import Level
 from core.trace.incremental.draft import Draft
-from core.trace.run_to import START
+from core.trace.run_to import END, START
 from lessons.course.catalogue import Course, Lesson
 from lessons.course.quoted import Situation
 from lessons.course.state import State
@@ -271,7 +271,8 @@ class LessonStates(QObject):
         """Show A | B where the state has a B, else its view, or the one of its stage."""
         page = self._page
         if state.printed:
-            page.comparing.show_printed(state.printed, seeks=state.place.at == START)
+            at = state.place.at
+            page.comparing.show_printed(state.printed, seeks=at == START, stays=at not in (START, END))
         elif state.other is not None:
             page.comparing.set_differences(state.settings.differences(state.other))
         if state.printed or state.edits or state.other is not None:

@@ -58,6 +58,12 @@ class LockStep:
             mine = int(ours[np.argmax(others == theirs)])
         self._put(mine, theirs)
 
+    def put_beside(self) -> None:
+        """Put the second run beside the last step of the first one, from where it may go on alone."""
+        pairs, mine = self.pairs(self._level), self.positions[0]
+        self._index = int(pairs[:, 0].searchsorted(mine))
+        self.positions = mine, int(pairs[self._index, 1])
+
     def land_second(self, position: int) -> None:
         """Put the second run at a position, and the first one beside the row that is done there."""
         ours, others = self.pairs(Level.PIXEL).T

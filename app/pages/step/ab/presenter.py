@@ -126,11 +126,12 @@ class ComparePresenter(QObject):
             return None
         return Step(self._second, replace(self._moment.cursor, position=self._steps.positions[1]))
 
-    def show_printed(self, name: str, *, seeks: bool = True) -> None:
+    def show_printed(self, name: str, *, seeks: bool = True, stays: bool = False) -> None:
         """Let A run the right method, and B a listing as a slide prints it, see `lessons.lectures`.
 
-        Both go to the first step in which they differ, where ``seeks`` is set. Raises ValueError if the listing does
-        not run in the pipeline, or not on this scene.
+        Both go to the first step in which they differ, where ``seeks`` is set. Where B ``stays``, it stands beside the
+        step that A is at, even if A has no further one. Raises ValueError if the listing does not run in the pipeline,
+        or not on this scene.
         """
         # Wanted by few, long after the start.
         from app.session.printed_runs import settings_as_printed, title_as_printed
@@ -138,8 +139,13 @@ class ComparePresenter(QObject):
         mine, other = settings_as_printed(name, self._session.latest)
         if mine != self._session.latest.settings:
             self._session.edit(replace(self._session.latest, settings=mine))
-        goal = self.meeting.go_to_other_pixel if seeks else None
+        goal = self.meeting.go_to_other_pixel if seeks else self._put_beside if stays else None
         self._become(SideB(mine.differences(other), title_as_printed(name), name), goal)
+
+    def _put_beside(self) -> None:
+        if self._steps is not None:
+            self._steps.put_beside()
+            self._show()
 
     def set_differences(self, differences: Mapping[str, str | int]) -> None:
         """Choose what B does otherwise than the page; nothing: something that shows in the stage at hand."""
