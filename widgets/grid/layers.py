@@ -349,6 +349,8 @@ class SegmentOverlay(NamedOverlay):
     """Whether they are the sides of one polygon in order, whose inside is tinted."""
     tag: str = ""
     """Written where they begin, at their upper left."""
+    width: float = 1.5
+    """Of the lines, in logical pixels: wider ones are seen over others in the same place."""
 
     def __post_init__(self) -> None:
         if self.segments.ndim != 3 or self.segments.shape[1:] != (2, 2):

@@ -299,7 +299,8 @@ def _paint_segments(
     style = Qt.PenStyle.DashLine if overlay.extended else Qt.PenStyle.SolidLine
     for edge in (-1, 0, 1, 2):
         color = QColor(theme.text if edge < 0 else theme.vertex[edge])
-        _stroke(painter, [lines[index] for index in np.flatnonzero(edges == edge)], color, 1.5, theme, style)
+        shown = [lines[index] for index in np.flatnonzero(edges == edge)]
+        _stroke(painter, shown, color, overlay.width, theme, style)
     if overlay.tag and placement.cell >= _LABEL_CELL:
         _paint_label(painter, placement, overlay, theme)
 

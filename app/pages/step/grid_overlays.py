@@ -274,7 +274,8 @@ def polygon_overlays(step: Step) -> list[Overlay]:
         return found
     lines = clipped_lines(stage, step.rows_done) if stage.stage == "clip" else ring_sides(clip.rings)
     if len(lines):
-        found.append(SegmentOverlay("clipped polygon", lines - origin, title="clipped polygon"))
+        # Some of its sides lie on the window's.
+        found.append(SegmentOverlay("clipped polygon", lines - origin, title="clipped polygon", width=4.0))
     return found
 
 

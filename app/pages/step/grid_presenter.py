@@ -160,7 +160,7 @@ DEFAULT_OVERLAYS = {
     ),
     "shade": frozenset({*grid_records.LANE_MARKS, "unset", "nan"}),
     "depth": frozenset({"failed", "nan", PIECES}),
-    "resolve": frozenset({"nan", "cutting edge", "cut polygon"}),
+    "resolve": frozenset({"nan", "cutting edge", "cut polygon", "clipped polygon"}),
 }
 """Overlays that are on at first, by stage."""
 
