@@ -206,9 +206,13 @@ class GridPresenter(QObject):
 
     def refresh_run(self, moment: Moment) -> None:
         """Show another run: outlines, rulers, buffers."""
+        before, now = self._moment.document, moment.document
+        is_recut = now.scene.makes_positions and now.triangle_count != before.triangle_count
         self._moment, self._guesses = moment, None
-        self._grid.set_pixel_center(moment.document.settings.pixel_center)
-        if self._focus < moment.document.triangle_count:
+        self._grid.set_pixel_center(now.settings.pixel_center)
+        if is_recut:
+            self.focus_on(moment.triangle)
+        elif self._focus < now.triangle_count:
             # Only a step moves the handles to its triangle: an edit leaves them where the pointer has them.
             self._stepped_to = moment.cursor
         self._show_outlines()
