@@ -18,6 +18,7 @@ from app.pages.page_bar import Page
 from app.window.appearance import the_application
 from app.window.parts import WindowParts
 from core import STAGES
+from widgets.basics.accessibility import give_focus
 from widgets.basics.theme import current_theme
 
 CLICKER = {
@@ -34,6 +35,8 @@ PAGES_TO_STEP = ("start", "step")
 """Pages on which F5 is the clicker's: on the others it measures, runs, analyses or checks."""
 TYPED = (Qt.Key.Key_B, Qt.Key.Key_Period)
 """Keys of a clicker that fields take."""
+ANSWERING = tuple("-0123456789")
+"""What begins an answer that is typed or chosen by its number."""
 ARROWS = (Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Down)
 HINT_ROOM = 32
 """Width of a hint around its text, in logical pixels."""
@@ -162,6 +165,9 @@ class Presenter(QObject):
         if isinstance(event, QKeyEvent) and self._steps(event):
             event.ignore()  # No view and no table keeps it from the window's keys.
             return True
+        if isinstance(event, QKeyEvent) and self._answers(event):
+            event.accept()
+            return True
         if isinstance(event, QKeyEvent) and self._takes(event):
             if event.type() == QEvent.Type.ShortcutOverride:
                 event.accept()
@@ -185,6 +191,17 @@ class Presenter(QObject):
             return False
         focus = QApplication.focusWidget()
         return focus is not None and self._window.page.isAncestorOf(focus) and _is_for_all(event, True)
+
+    def _answers(self, event: QKeyEvent) -> bool:
+        """Give the open question the keyboard for a digit or a sign: a digit would go to a stage else."""
+        if event.type() != QEvent.Type.ShortcutOverride or event.text() not in ANSWERING:
+            return False
+        page = self._window.page
+        stop = page.lessons.unfocused_answer()
+        if stop is None or not page.isVisible() or not _is_for_all(event, True):
+            return False
+        give_focus(stop)
+        return True
 
     def _click(self, action: str) -> None:
         """Do what a clicker means; what is black is shown first."""
@@ -242,4 +259,4 @@ def _takes_text(widget: QWidget | None) -> bool:
     """Return whether keys are typed into a widget: a field, or an editor of several lines."""
     if isinstance(widget, QPlainTextEdit | QTextEdit):
         return not widget.isReadOnly()
-    return isinstance(widget, QLineEdit | QAbstractSpinBox)
+    return isinstance(widget, QLineEdit | QAbstractSpinBox) and not widget.isReadOnly()

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer, Signal, Slot
+from PySide6.QtWidgets import QApplication, QWidget
 
 from app.background import Job, end_work
 from app.files.state_files import State
@@ -90,6 +91,14 @@ class LessonPresenter(QObject):
     def is_asking(self) -> bool:
         """Whether a lesson has a question open."""
         return self.walk is not None and self.walk.answers.is_open
+
+    def unfocused_answer(self) -> QWidget | None:
+        """Return what takes the answer to the open question; ``None``: the picture takes it, or it has the keyboard."""
+        walk, focus = self.walk, QApplication.focusWidget()
+        if walk is None or (focus is not None and walk.view.is_of_answer(focus)):
+            return None
+        stop = walk.task.answer_stop()
+        return None if stop is walk.task.grid else stop
 
     def asked_on(self, page: str) -> str:
         """Return what the open step asks on another page of the window, to which it leads; empty: nothing."""

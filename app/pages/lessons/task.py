@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
 
 from app.background import is_working
 from app.pages.lessons.question import RIGHT, SHOWN, JudgedAnswer, LessonAnswers
@@ -193,20 +193,23 @@ class LessonTask(QObject):
         """Bring what is said of a task into sight, where the pane scrolls."""
         self.scroll.keep_in_sight(self.view.feedback)
 
+    def answer_stop(self) -> QWidget | None:
+        """Return what takes the answer by keyboard; ``None``: no question is open."""
+        asked = None if self._home is None else self._home.asked
+        if asked is None or not self.answers.is_open:
+            return None
+        answer = self.view.answer
+        return self.grid if asked.is_on_picture else first_stop([] if answer is None else [answer])
+
     def _give_keyboard(self) -> None:
         """Let the next key answer: a digit would go to a stage else. A clicker's keys are nobody's."""
         page, focused = self._page, QApplication.focusWidget()
         if page.is_presenting or not page.isVisible():
             return
-        home = self._home
-        if home is not None and home.asked is not None and self.answers.is_open:
-            answer = self.view.answer
-            stop = self.grid if home.asked.is_on_picture else first_stop([] if answer is None else [answer])
-            by_mouse = QApplication.mouseButtons() != Qt.MouseButton.NoButton
-            if stop is not None:
-                give_focus(
-                    stop, Qt.FocusReason.MouseFocusReason if by_mouse else Qt.FocusReason.TabFocusReason
-                )
+        by_mouse = QApplication.mouseButtons() != Qt.MouseButton.NoButton
+        reason = Qt.FocusReason.MouseFocusReason if by_mouse else Qt.FocusReason.TabFocusReason
+        if (stop := self.answer_stop()) is not None:
+            give_focus(stop, reason)
         elif focused is None or focused is self.grid or self.view.is_of_answer(focused):
             page.take_focus()
 

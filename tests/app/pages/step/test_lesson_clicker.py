@@ -107,3 +107,28 @@ def test_a_clicker_shows_how_a_task_is_done(window: MainWindow, qtbot: QtBot, tm
         QTest.keyClick(window, Qt.Key.Key_PageDown)
         settled(window, qtbot)
     assert walk.number == 4
+
+
+@pytest.mark.own_window
+@pytest.mark.parametrize(
+    ("name", "step", "keys", "given"),
+    [("shared-edges", 2, "-4", [["-4"]]), ("shared-edges", 4, "2", ["triangle 1"])],
+)
+def test_a_digit_answers_the_open_question_wherever_the_keyboard_is(
+    window: MainWindow, qtbot: QtBot, name: str, step: int, keys: str, given: list[object]
+) -> None:
+    window.page.lessons.open(name, step)
+    walk = settled(window, qtbot)
+    window.presenter.arrange()
+    settled(window, qtbot)
+    window.page.take_focus()
+    cursor = window.session.cursor
+    for key in keys:
+        QTest.keyClick(window.windowHandle(), key)
+    assert (walk.view.answer.given(), window.session.cursor) == (given, cursor)
+    for _ in ("the answer", "a black screen"):
+        QTest.keyClick(
+            window.windowHandle(), Qt.Key.Key_PageDown if walk.answers.is_open else Qt.Key.Key_Period
+        )
+        settled(window, qtbot)
+    assert window.presenter.end_black()
