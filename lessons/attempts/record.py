@@ -234,6 +234,8 @@ class Place:
 
     lesson: Lesson
     step: int
+    after: Lesson | None = None
+    """The finished lesson that this one follows; ``None``: it is the one tried last, or the first not finished."""
 
 
 def is_of_lesson(attempt: Attempt) -> bool:
@@ -312,17 +314,28 @@ def place_in(attempts: Sequence[Attempt], lesson: Lesson) -> int:
 
 
 def next_place(attempts: Sequence[Attempt], course: Course) -> Place | None:
-    """Return where a user goes on: in the lesson that was tried last, or else in the first that is not finished.
+    """Return where a user goes on: in the lesson that was tried last, or that follows it, or the first not finished.
 
     ``None``: there are no lessons, or all are finished.
     """
     last = next((attempt for attempt in reversed(attempts) if is_of_lesson(attempt)), None)
-    latest = None if last is None else course.lessons.get(last.template.split("/")[1])
-    for each in [*([] if latest is None else [latest]), *course.lessons.values()]:
-        step = place_in(attempts, each)
-        if step < each.step_count:
-            return Place(each, step)
-    return None
+    each = None if last is None else course.lessons.get(last.template.split("/")[1])
+    before: Lesson | None = None
+    met: set[str] = set()
+    while each is not None and each.name not in met:
+        if (step := place_in(attempts, each)) < each.step_count:
+            return Place(each, step, before)
+        met.add(each.name)
+        before, each = each, course.after(each)
+    first = first_unfinished(attempts, course)
+    return None if first is None else Place(first, place_in(attempts, first))
+
+
+def first_unfinished(attempts: Sequence[Attempt], course: Course) -> Lesson | None:
+    """Return the first lesson of the course that is not finished; ``None``: all are."""
+    return next(
+        (each for each in course.lessons.values() if place_in(attempts, each) < each.step_count), None
+    )
 
 
 def recall_for(attempts: Sequence[Attempt], course: Course, lesson: Lesson) -> str:

@@ -49,7 +49,8 @@ class ChoiceAnswerView(AnswerView):
         self._group = None if form.is_several else QButtonGroup(self)
         layout = column_layout(self, 4)
         how = "Choose all that are right" if form.is_several else "Choose one"
-        how += f" (keys 1 to {len(form.items)})." if self._has_numbers else "."
+        keys = f"1 {'and' if len(form.items) == 2 else 'to'} {len(form.items)}"
+        how += f" (keys {keys})." if self._has_numbers else "."
         layout.addWidget(text_label(how, self, role="muted"))
         for button, mark in zip(self.buttons, self._marks, strict=True):
             if self._group is not None:

@@ -34,6 +34,10 @@ class LessonPlace:
     """From 0."""
     is_new: bool
     """Whether no lesson has been begun."""
+    after: str = ""
+    """Title of the finished lesson that it follows; empty: it is the first that is not finished."""
+    first: str = ""
+    """Title of the first that is not finished, where it is another."""
 
     @property
     def button(self) -> str:
@@ -50,7 +54,10 @@ class LessonPlace:
             )
         if self.step:
             return f"You stopped in “{self.title}”: step {self.step + 1} is next."
-        return f"Next comes “{self.title}”."
+        if not self.after:
+            return f"The first lesson that is not done is “{self.title}”."
+        passed_over = f" The first that is not done is “{self.first}”." if self.first else ""
+        return f"After “{self.after}” comes “{self.title}”.{passed_over}"
 
 
 @dataclass(frozen=True)
@@ -152,7 +159,7 @@ def read_lessons() -> LessonsShown:
 def shown_lessons(course: "Course", attempts: "tuple[Attempt, ...]") -> LessonsShown:
     """Return what is shown of a course to a learner with these attempts."""
     from core.stages.declared import stage_of
-    from lessons.attempts.record import Standing, is_of_lesson, next_place, standings
+    from lessons.attempts.record import Standing, first_unfinished, is_of_lesson, next_place, standings
     from lessons.course.catalogue import chapters, explorations
 
     lessons = course.lessons
@@ -190,5 +197,13 @@ def shown_lessons(course: "Course", attempts: "tuple[Attempt, ...]") -> LessonsS
     goes_on = None
     if place is not None:
         is_new = not any(map(is_of_lesson, attempts))
-        goes_on = LessonPlace(place.lesson.name, place.lesson.title, place.step, is_new)
+        after, first = place.after, first_unfinished(attempts, course)
+        goes_on = LessonPlace(
+            place.lesson.name,
+            place.lesson.title,
+            place.step,
+            is_new,
+            after="" if after is None else after.title,
+            first="" if first is None or first is place.lesson else first.title,
+        )
     return LessonsShown(by_learning, by_stage, goes_on, opens, course.problems)

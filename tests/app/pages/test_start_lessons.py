@@ -79,7 +79,7 @@ def test_who_comes_back_goes_on_where_he_stopped(
         [
             ("Go on: Whose pixel?", "You stopped in “Whose pixel?”: step 3 is next."),
             ("Go on: Whose pixel?", "You stopped in “Whose pixel?”: step 4 is next."),
-            ("Begin: Whose row?", "Next comes “Whose row?”."),
+            ("Begin: Whose row?", "After “Whose pixel?” comes “Whose row?”."),
         ],
         1,
     ):

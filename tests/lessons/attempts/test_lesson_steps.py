@@ -72,10 +72,16 @@ def test_who_is_new_begins_at_the_first_and_who_has_all_is_finished(course: Cour
     assert record.next_place([], Course({})) is None
 
 
-def test_after_a_lesson_comes_the_first_that_is_not_finished(course: Course) -> None:
-    one, two = course.lessons.values()
-    place = record.next_place([tried(two, step, 1, step) for step in (1, 2, 3)], course)
-    assert (place.lesson, place.step) == (one, 0)
+def test_after_a_lesson_comes_the_one_that_follows_and_after_the_last_the_first_not_finished() -> None:
+    course = shipped()
+    glass, *_, last = (course.named("glass"), *course.lessons.values())
+    first, following = course.named("pixel-centres"), course.after(glass)
+    assert course.after(last) is None
+    done = {lesson: [tried(lesson, k, 1, k) for k in range(lesson.step_count)] for lesson in (glass, last)}
+    for lesson, wanted in ((glass, (following, 0, glass)), (last, (first, 0, None))):
+        place = record.next_place(done[lesson], course)
+        assert (place.lesson, place.step, place.after) == wanted
+    assert record.first_unfinished(done[glass], course) is first
 
 
 def test_what_comes_before_a_lesson_is_of_one_that_was_finished() -> None:
