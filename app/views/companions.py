@@ -21,7 +21,7 @@ from widgets.grid.layers import GridBuffer
 from widgets.grid.marks import StepMark, box_lines
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.inspector.step_table import StepTableView
-from widgets.space.diagram import CUBE, Diagram, Spot, Stroke
+from widgets.space.diagram import CUBE, Diagram, Spot, Stroke, Word
 from widgets.space.texture_view import TextureLevels
 from widgets.space.view import SpaceView
 
@@ -368,9 +368,13 @@ def entered_diagram(moment: Moment) -> Diagram:
         said = f"Vertex {k} of {drawn.one} {stage.triangle[row]} is in {space} space."
         if is_there[current, k]:
             spots.append(Spot(corners[current, k], "accent", "ring", 7.0))
+        else:
+            said += " It comes here when x, y and z are divided by w."
+    empty = Word(np.zeros(3), "empty so far", "muted_text")
     return Diagram(
         strokes=tuple(strokes),
         spots=tuple(spots),
+        words=() if is_there.any() else (empty,),
         frame=CUBE * 1.05,
         azimuth=0.55,
         elevation=0.35,

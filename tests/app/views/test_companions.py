@@ -83,8 +83,10 @@ def test_corners_enter_the_cube_as_they_are_divided(qapp: object) -> None:
     for position in np.linspace(0, session.stage_trace.steps.count, 8).astype(int).tolist():
         session.go_to(position)
         there = spaces_reached(session.trace, "transform", position) >= SPACES.index("NDC")
-        outlines = [stroke for stroke in entered_diagram(session.moment).strokes if stroke.ink == "text"]
+        diagram = entered_diagram(session.moment)
+        outlines = [stroke for stroke in diagram.strokes if stroke.ink == "text"]
         assert len(outlines) == there.all(axis=1).sum()
+        assert [word.text for word in diagram.words] == ([] if there.any() else ["empty so far"])
         counts.append(len(outlines))
     assert counts == sorted(counts)
     assert (counts[0], counts[-1]) == (0, 12)
