@@ -22,6 +22,8 @@ from widgets.space.orbit import Orbit
 
 EQUATIONS = ("z = −w", "z = w", "x = −w", "x = w", "y = −w", "y = w")
 NDC_EQUATIONS = ("z = −1", "z = 1", "x = −1", "x = 1", "y = −1", "y = 1")
+SEEN_OUTSIDE = 2.5
+"""A corner outside the cube is seen whole up to here: farther ones would make the cube small."""
 SLICE_REACH = 1.15
 """The volume of clip space is drawn up to so many times the largest \\|w\\|."""
 
@@ -174,12 +176,14 @@ def _ndc_diagram(state: ClipState) -> Diagram:
     words = [Word(np.array([1.0, -1.0, 1.0]), "near"), Word(np.array([1.0, -1.0, -1.0]), "far")]
     shapes = _shapes(state, place, faces[state.plane] if state.plane >= 0 else None, NDC_EQUATIONS)
     axes = _axes(np.array([-1.0, -1.0, 1.0]), np.diag([0.5, 0.5, -0.5]), ("x", "y", "z"))
+    corners = place(state.before)
+    close = corners[(np.abs(corners) <= SEEN_OUTSIDE).all(axis=1)]
     return Diagram(
         patches=shapes.patches,
         strokes=(*strokes, *axes.strokes, *shapes.strokes),
         spots=shapes.spots,
         words=(*shapes.words, *axes.words, *words),
-        frame=CUBE * 1.05,
+        frame=np.concatenate([CUBE, close]) * 1.05,
         azimuth=0.55,
         elevation=0.35,
         caption=f"{state.sentence} All w > 0, so clip space is shown divided by w: the view volume is "
