@@ -49,8 +49,8 @@ class ChoiceAnswerView(AnswerView):
         self._group = None if form.is_several else QButtonGroup(self)
         layout = column_layout(self, 4)
         how = "Choose all that are right" if form.is_several else "Choose one"
-        keys = f"1 {'and' if len(form.items) == 2 else 'to'} {len(form.items)}"
-        how += f" (keys {keys})." if self._has_numbers else "."
+        self._keys = f"keys 1 {'and' if len(form.items) == 2 else 'to'} {len(form.items)}"
+        how += f" ({self._keys})." if self._has_numbers else "."
         layout.addWidget(text_label(how, self, role="muted"))
         for button, mark in zip(self.buttons, self._marks, strict=True):
             if self._group is not None:
@@ -72,10 +72,13 @@ class ChoiceAnswerView(AnswerView):
         if event.type() == QEvent.Type.ShortcutOverride:
             event.accept()
         number = event.key() - Qt.Key.Key_0
-        is_number = self._has_numbers and 0 < number <= len(self.buttons)
-        if is_number and event.type() == QEvent.Type.KeyPress:
-            give_focus(self.buttons[number - 1])
-            self.buttons[number - 1].click()
+        if event.type() == QEvent.Type.KeyPress:
+            if self._has_numbers and 0 < number <= len(self.buttons):
+                give_focus(self.buttons[number - 1])
+                self.buttons[number - 1].click()
+            else:
+                others = f"The {self._keys} choose." if self._has_numbers else "Use the arrows or the mouse."
+                self.note_changed.emit(f"{event.text()} chooses nothing here. {others}")
         return True
 
     def resizeEvent(self, event: QResizeEvent) -> None:

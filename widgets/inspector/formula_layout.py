@@ -205,7 +205,10 @@ class FormulaSetter:
                     break
                 total += step
                 stop = after
+            parts = [[latex for latex, _ in row[start:stop]] for row in columns.rows]
             for index, (row, boxes) in enumerate(zip(columns.rows, columns.boxes, strict=True)):
+                if index and start > first and parts[0] == parts[1]:
+                    continue  # The same words once more, as "covered" under "covered".
                 left = 0.0 if start == first else self._size
                 pieces = []
                 for k in range(start, stop):

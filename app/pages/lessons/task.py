@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtWidgets import QApplication, QLineEdit, QWidget
 
 from app.background import is_working
 from app.pages.lessons.question import RIGHT, SHOWN, JudgedAnswer, LessonAnswers
@@ -275,6 +275,8 @@ class LessonTask(QObject):
             self._conclude(RIGHT, is_right=True)
         else:
             self.view.reveal_button.setText(SHOW_ME if self._has_evidence() else REVEAL)
+        if self._page.is_presenting and isinstance(QApplication.focusWidget(), QLineEdit):
+            self._page.take_focus()  # A clicker's period is for the screen again; a digit comes back to the field.
         self.ended.emit(float(is_right and is_first), judged)
 
     @Slot()

@@ -268,6 +268,20 @@ def test_a_product_that_has_no_room_goes_on_in_the_next_line(qtbot, view) -> Non
     assert view._scale(view._lines) > 0.75
 
 
+def test_a_conclusion_in_a_line_of_its_own_stands_there_once(qtbot, view) -> None:
+    view.show_formula(
+        Formula(
+            r"E_0 & > & 0 & \Rightarrow & \text{covered by this triangle}",
+            r"1542.75 & > & 0 & \Rightarrow & \text{covered by this triangle}",
+        )
+    )
+    wait_for_typesetting(qtbot, view)
+    view.resize(200, 400)
+    texts = [[piece.latex for piece in line.pieces] for line in view._lines]
+    assert len(texts) == 3
+    assert texts[2][0] == r"\Rightarrow"
+
+
 def test_a_low_view_shows_lines_that_are_read_largest(qtbot, view) -> None:
     view.show_formula(EQUATIONS)
     wait_for_typesetting(qtbot, view)

@@ -112,7 +112,7 @@ def test_a_clicker_shows_how_a_task_is_done(window: MainWindow, qtbot: QtBot, tm
 @pytest.mark.own_window
 @pytest.mark.parametrize(
     ("name", "step", "keys", "given"),
-    [("shared-edges", 2, "-4", [["-4"]]), ("shared-edges", 4, "2", ["triangle 1"])],
+    [("shared-edges", 2, "-1", [["-1"]]), ("shared-edges", 4, "2", ["triangle 1"])],
 )
 def test_a_digit_answers_the_open_question_wherever_the_keyboard_is(
     window: MainWindow, qtbot: QtBot, name: str, step: int, keys: str, given: list[object]
@@ -126,6 +126,10 @@ def test_a_digit_answers_the_open_question_wherever_the_keyboard_is(
     for key in keys:
         QTest.keyClick(window.windowHandle(), key)
     assert (walk.view.answer.given(), window.session.cursor) == (given, cursor)
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_Return)
+    settled(window, qtbot)
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_Period)
+    assert (window.presenter.end_black(), walk.view.answer.given()) == (True, given)
     for _ in ("the answer", "a black screen"):
         QTest.keyClick(
             window.windowHandle(), Qt.Key.Key_PageDown if walk.answers.is_open else Qt.Key.Key_Period
