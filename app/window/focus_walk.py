@@ -1,12 +1,13 @@
 """The way of the keyboard through the window: Tab from stop to stop, F6 from pane to pane, Escape to the main view."""
 
 from PySide6.QtCore import QObject, Qt, Slot
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtWidgets import QAbstractSpinBox, QApplication, QWidget
 
 from app.help.pane import HelpPane
 from app.window.appearance import the_application
 from app.window.parts import WindowParts
 from widgets.basics.accessibility import GIVEN_BACK, KeyClaim, first_stop, give_focus, next_stop, tab_stops
+from widgets.basics.typed_value import NumberEdit
 
 
 class FocusWalk(QObject):
@@ -96,7 +97,8 @@ class FocusWalk(QObject):
         """Give the keyboard back to the main view and the arrows to stepping; return whether others had them."""
         own = tab_stops([self.window.pages.current.main_view()])
         now = self.window.focusWidget()
-        if self.is_by_mouse or not own or now is None or now is self.window:
+        is_field = isinstance(now, NumberEdit | QAbstractSpinBox)  # It keeps digits from the stages.
+        if (self.is_by_mouse and not is_field) or not own or now is None or now is self.window:
             return False
         if now in own:
             claim = now.findChild(KeyClaim, options=Qt.FindChildOption.FindDirectChildrenOnly)

@@ -25,7 +25,10 @@ def tabular_font(font: QFont) -> QFont:
 
 
 class NumberEdit(QLineEdit):
-    """A field for a number, in figures of one width; a double-click takes all of it, past the point and the minus."""
+    """A field for a number, in figures of one width; a double-click takes all of it, past the point and the minus.
+
+    It keeps the keyboard after Enter, and the number that was taken is selected: the next one takes its place.
+    """
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -46,6 +49,13 @@ class NumberEdit(QLineEdit):
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         """Select the whole number."""
         self.selectAll()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Select a number that Enter has entered; one that was refused is left to be mended."""
+        super().keyPressEvent(event)
+        is_enter = event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
+        if is_enter and self.hasFocus() and not self.isModified():
+            self.selectAll()
 
 
 class TypedValue(QWidget):
@@ -69,7 +79,6 @@ class TypedValue(QWidget):
         self.edit.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.edit.installEventFilter(self)
         self.edit.editingFinished.connect(self._commit)
-        self.edit.returnPressed.connect(self.edit.clearFocus)
         self.edit.textEdited.connect(self._clear_error)
         self.error = text_label("", self, role="bad", wraps=True)
         self.error.hide()
@@ -93,7 +102,7 @@ class TypedValue(QWidget):
             return
         self._value = float(value)
         if not (self.edit.hasFocus() and self.edit.isModified()):
-            self._show_text()
+            self._show_text(is_full=self.edit.hasFocus())
 
     def set_range(self, lowest: float, highest: float) -> None:
         """Refuse values outside [lowest, highest]."""
@@ -181,10 +190,13 @@ class TypedValue(QWidget):
 
     def _show_text(self, is_full: bool = False) -> None:
         text = full_text(self._value) if is_full else self._fitting_text()
+        is_selected = self.edit.hasFocus() and self.edit.hasSelectedText()
         if text != self.edit.text() or self.edit.isModified():
             self.edit.setText(text)
             self.edit.setModified(False)
         self.edit.setCursorPosition(0)
+        if is_selected:
+            self.edit.selectAll()
         several = "\nType 1.5, 3 to fill the next field too." if self._most > 1 else ""
         self.edit.setToolTip(
             f"{self._name} = {full_text(self._value)}\nAccepts decimals, fractions (3/256) and pi.{several}"

@@ -350,7 +350,6 @@ class RangeControl(QWidget):
         edit.setAccessibleName(name)
         edit.setAlignment(Qt.AlignmentFlag.AlignRight)
         edit.editingFinished.connect(self._type_ends)
-        edit.returnPressed.connect(edit.clearFocus)
         return edit
 
     def _take_font(self) -> None:

@@ -101,6 +101,19 @@ def test_enter_commits_a_changed_value_once(qtbot, field) -> None:
     assert field.edit.text() == "0.75"
 
 
+def test_after_enter_the_next_number_takes_the_place_of_the_one_entered(qtbot, field) -> None:
+    seen = []
+    field.value_committed.connect(seen.append)
+    field.edit.setFocus()
+    field.edit.selectAll()
+    for text in ("0.5", "0.125"):
+        qtbot.keyClicks(field.edit, text)
+        qtbot.keyClick(field.edit, Qt.Key.Key_Return)
+        field.show_value(seen[-1] / 2)  # Another one may be taken.
+        assert field.edit.selectedText() == field.edit.text()
+    assert seen == [0.5, 0.125]
+
+
 def test_leaving_commits(qtbot, field) -> None:
     seen = []
     field.value_committed.connect(seen.append)

@@ -14,9 +14,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import STAGES
 from core.records.steps import Level
+from lessons.scenes import make_scene
 from widgets.inspector.listing import ListingView
 from widgets.timeline.chapters import ChapterButton
 
@@ -75,6 +77,21 @@ def test_a_number_that_was_typed_gives_the_keys_back(window: MainWindow) -> None
     assert session.cursor.position == 400
     QTest.keyClick(window.focusWidget() or window, Qt.Key.Key_Right)
     assert session.cursor.position > 400
+
+
+def test_a_value_keeps_the_keys_till_escape(window: MainWindow) -> None:
+    session, page = window.session, window.page
+    session.open(open_document(make_scene("cube"), "Cube"))
+    page.show_panes(["scene"])
+    field = page.outline.field("camera/eye/x").edit
+    QTest.mouseDClick(field, Qt.MouseButton.LeftButton)
+    for text in ("3", "2"):
+        QTest.keyClicks(field, text)
+        QTest.keyClick(field, Qt.Key.Key_Return)
+        assert session.latest.scene.camera.eye[0] == float(text)
+    assert window.focusWidget() is field
+    window.run_action("unpin")
+    assert window.focusWidget() in (page.main_view(), *page.main_view().findChildren(QWidget))
 
 
 @pytest.mark.own_window
