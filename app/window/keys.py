@@ -86,7 +86,7 @@ LOCAL_KEYS = (
         KeyAction(
             "clicker_start",
             ("F5",),
-            "Presenting: start of the run; at the start, or in a lesson, open a lesson, scene or state",
+            "Presenting: start of the run; there, on Start, or in a lesson, open a lesson, scene or state",
             PRESENTING,
         ),
     ),

@@ -24,7 +24,7 @@ from widgets.basics.theme import current_theme
 CLICKER = {
     Qt.Key.Key_PageDown: "step_forward",
     Qt.Key.Key_PageUp: "step_back",
-    Qt.Key.Key_F5: "start",  # At the start, and in a lesson: open something else.
+    Qt.Key.Key_F5: "start",  # At the start, on the Start page and in a lesson: open something else.
     Qt.Key.Key_B: "black",
     Qt.Key.Key_Period: "black",
 }
@@ -38,6 +38,8 @@ TYPED = (Qt.Key.Key_B, Qt.Key.Key_Period)
 ANSWERING = tuple("-0123456789")
 """What begins an answer that is typed or chosen by its number."""
 ARROWS = (Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Down)
+HINT = "Page Down: next. Page Up: back. F5: lessons and scenes. Period: black screen. Esc: leave."
+"""What is said when one begins to present."""
 HINT_ROOM = 32
 """Width of a hint around its text, in logical pixels."""
 PRESENTED_PANES = ("inspector",)
@@ -93,6 +95,7 @@ class Presenter(QObject):
         else:
             self.arrange()
             self._window.showFullScreen()
+            self._window.notices.tell(HINT)
 
     def arrange(self) -> None:
         """Show only what the step needs, in large type: without filling the screen."""
@@ -211,9 +214,10 @@ class Presenter(QObject):
             self._blank.setGeometry(self._window.rect())
             self._blank.raise_()
         elif not is_black:
+            is_on_start = self._window.pages.current_name == "start"
             self._window.pages.show_page("step")
             lessons = self._window.page.lessons
-            if action == "start" and (lessons.is_open or self._is_at_start()):
+            if action == "start" and (is_on_start or lessons.is_open or self._is_at_start()):
                 self._window.run_action("choose_scene")
             elif lessons.is_open:
                 getattr(lessons, IN_LESSONS[action])()

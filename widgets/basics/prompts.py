@@ -104,10 +104,12 @@ MOVES = {Qt.Key.Key_Down: 1, Qt.Key.Key_PageDown: 1, Qt.Key.Key_Up: -1, Qt.Key.K
 """Entries that a key goes on: a clicker sends Page Down and Page Up for one."""
 CHOOSES = (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_F5)
 """Keys that choose: a clicker sends F5."""
+CLOSES = Qt.Key.Key_Period
+"""Closes while nothing is typed: a clicker has no Escape, and no name begins with it."""
 
 
 class QuickChooser(QWidget):
-    """Entries under headings. Typing narrows them, Return or a click chooses one, Escape closes."""
+    """Entries under headings. Typing narrows them, Return or a click chooses one, Escape or a first period closes."""
 
     chosen = Signal(str)
     """Name of the chosen entry; the list has closed."""
@@ -177,13 +179,16 @@ class QuickChooser(QWidget):
         if not isinstance(event, QKeyEvent) or event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier:
             return False
         key = Qt.Key(event.key())
-        if key not in MOVES and key not in CHOOSES:
+        closes = key == CLOSES and not self.field.text()
+        if key not in MOVES and key not in CHOOSES and not closes:
             return False
         if event.type() == QEvent.Type.ShortcutOverride:
             event.accept()
             return True
         if event.type() == QEvent.Type.KeyPress:
-            if key in MOVES:
+            if closes:
+                self.hide()
+            elif key in MOVES:
                 self._go_to(self._next_row(self.list.currentRow(), MOVES[key]))
                 self._announce()
             else:

@@ -182,6 +182,11 @@ def test_a_clicker_opens_another_scene(presented: MainWindow, qtbot: QtBot) -> N
     assert second not in ("", first)
     press(presented, Qt.Key.Key_PageUp)
     assert chooser.current() == first
+    press(presented, Qt.Key.Key_Period)
+    assert not chooser.isVisible()
+    presented.page.stepping.choose_stage(5)
+    presented.pages.show_page("start")
+    press(presented, Qt.Key.Key_F5)
     press(presented, Qt.Key.Key_PageDown)
     press(presented, Qt.Key.Key_F5)
     assert not chooser.isVisible()
