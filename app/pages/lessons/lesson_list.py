@@ -55,8 +55,8 @@ class LessonPlace:
         if self.step:
             return f"You stopped in “{self.title}”: step {self.step + 1} is next."
         if not self.after:
-            return f"The first lesson that is not done is “{self.title}”."
-        passed_over = f" The first that is not done is “{self.first}”." if self.first else ""
+            return f"The first lesson not done is “{self.title}”."
+        passed_over = f" The first lesson not done is “{self.first}”." if self.first else ""
         return f"After “{self.after}” comes “{self.title}”.{passed_over}"
 
 
