@@ -230,14 +230,16 @@ def _caption(
     else:
         pixel, _, at = found[0]
         read = at.reads[place]
-        share = f", {number_text(100 * read.share, 3)} % of the colour" if len(at.reads) > 1 else ""
-        reads = f"reads {counted(len(read.samples.shares[0]), 'texel')} ({source.settings.texture_filter}{share})."
-        if place:
-            parts.append(f"Of this level the {pixel.name} {reads}")
+        reads = f"reads {counted(len(read.samples.shares[0]), 'texel')}"
+        u, v = (number_text(float(value)) for value in at.center)
+        if len(at.reads) > 1:  # Two levels share the width.
+            looks = "" if place else f"looks up u = {u}, v = {v} and "
+            share = number_text(100 * read.share, 3)
+            parts.append(f"The {pixel.name} {looks}{reads} here, {share} % of the colour.")
         else:
-            u, v = (number_text(float(value)) for value in at.center)
             moved = f", shown {_shift_text(shift)} ({source.settings.wrap})" if shift.any() else ""
-            parts.append(f"The {pixel.name} looks up u = {u}, v = {v}{moved}, and {reads}")
+            means = source.settings.texture_filter
+            parts.append(f"The {pixel.name} looks up u = {u}, v = {v}{moved}, and {reads} ({means}).")
         if np.isfinite(at.corners).all():
             area = abs(_area(at.corners * [width, height]))
             parts.append(f"Its footprint covers {number_text(area, 3)} texels.")
