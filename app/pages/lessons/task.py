@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QApplication, QLineEdit, QWidget
 from app.background import is_working
 from app.pages.lessons.question import RIGHT, SHOWN, JudgedAnswer, LessonAnswers
 from app.pages.lessons.states import PANES, LessonStates, LessonWatch, OpenState, Wanted, paragraphs
+from app.pages.step.ab.side_b import settings_difference
 from app.session.moment import Change
 from core import STAGES
 from core.scene import ClipScene
@@ -67,7 +68,7 @@ DONE = "Done."
 DONE_BEFORE = "You had done it. What is open now no longer does it."
 PEEKED = "You have stepped on. An answer counts as seen now."
 NO_PICTURE = "This question needs no picture."
-ONE_WAY = "This is one way to do it."
+ONE_WAY = "This is one way to do it"
 SHOW_ME, REVEAL = "Show me", "Reveal"
 
 
@@ -349,10 +350,15 @@ class LessonTask(QObject):
 
     def _show_solved(self, shown: OpenState) -> None:
         """Show a task as the recorded solution does it: the step is seen, not done."""
+        home = self._home
         assert self._part is not None
+        assert home is not None
+        # A class does not see the Methods pane, in which they are chosen.
+        chosen = settings_difference(home.document.settings, shown.document.settings)
         self._show(shown, is_hidden=False)
         self.standing_changed.emit(Standing.SEEN)
-        said = filter(None, (ONE_WAY, paragraphs(self._part.after)))
+        one_way = f"{ONE_WAY}{f' ({chosen})' if chosen else ''}."
+        said = filter(None, (one_way, paragraphs(self._part.after)))
         self.view.show_feedback(LessonFeedback(tuple(said)))
         self.ended.emit(0.0, None)
 

@@ -136,3 +136,11 @@ def test_a_digit_answers_the_open_question_wherever_the_keyboard_is(
         )
         settled(window, qtbot)
     assert window.presenter.end_black()
+
+
+def test_a_class_reads_which_method_solves_a_task(window: MainWindow, qtbot: QtBot) -> None:
+    window.page.lessons.open("who-is-in-front", 5)
+    walk = settled(window, qtbot)
+    walk.task.reveal()
+    settled(window, qtbot)
+    assert walk.view.feedback.text().startswith("This is one way to do it (visibility: Z-buffer).")
