@@ -138,6 +138,17 @@ def test_the_end_of_one_is_the_end_of_the_other() -> None:
         assert both.positions == (position, beside)
 
 
+def test_beside_the_last_step_of_one_the_other_may_go_on() -> None:
+    first, second = run([(0, 0, "s")]), run([(0, k, "s") for k in (0, 1, 2)])
+    end = Cursor(position=first.steps.count)
+    both = LockStep(first, second, end)
+    assert both.positions == (first.steps.count, second.steps.count)
+    both.put_beside()
+    assert both.positions == (first.steps.count, int(second.steps.starts[1]))
+    assert both.step_second(1, end.level)
+    assert both.positions == (first.steps.count, int(second.steps.starts[2]))
+
+
 def test_a_jump_into_a_step_lands_beside_the_operation() -> None:
     first, second = run([(0, k, "t") for k in (0, 1, 2)]), run([(0, k, "t") for k in (2, 0, 1)])
     both = LockStep(first, second, Cursor())
