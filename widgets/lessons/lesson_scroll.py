@@ -81,9 +81,8 @@ class LessonScroll(QScrollArea):
         if is_put_off:
             return
         _invalidate(self._bar.layout())
-        QCoreApplication.sendPostedEvents(
-            self._bar, QEvent.Type.LayoutRequest.value
-        )  # Not after the pane's own.
+        # Before the pane's own, which would follow it once more.
+        QCoreApplication.sendPostedEvents(self._bar, QEvent.Type.LayoutRequest.value)
         _invalidate(layout)
 
     def take_room(self, width: int, wanted: int, most: int) -> None:
