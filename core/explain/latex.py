@@ -8,7 +8,7 @@ cache.
 
 import re
 import unicodedata
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 
 from core.explain.records import Formula
@@ -89,28 +89,17 @@ def split_cells(latex: str, *, splits_products: bool = False) -> tuple[str, ...]
     tuple of str
         Cells in reading order, none empty; joined by blanks they are the line again, less the ``&``.
     """
-    tokens = _TOKEN.findall(latex)
-    has_marks = _has_top_level_mark(tokens)
-    cells = [""]
-    depth = 0
-    for token in tokens:
-        depth += (token in _OPENING) - (token in _CLOSING)
-        if depth > 0 or token in _CLOSING:
-            cells[-1] += token
-        elif has_marks:
-            if token == "&":
-                cells.append("")
-            else:
-                cells[-1] += token
-        elif (
+    marked = _cut(latex, lambda token, _: token == "&")
+    if "&" in marked:
+        return tuple(cell for cell in marked if cell != "&")
+    return _cut(
+        latex,
+        lambda token, before: (
             token in _RELATIONS
             or (token in _PRODUCTS and splits_products)
-            or (token in _SIGNS and _ends_a_term(cells))
-        ):
-            cells.extend((token, ""))
-        else:
-            cells[-1] += token
-    return tuple(cell.strip() for cell in cells if cell.strip())
+            or (token in _SIGNS and _ends_a_term(before))
+        ),
+    )
 
 
 def split_products(latex: str) -> tuple[str, ...]:
@@ -119,27 +108,23 @@ def split_products(latex: str) -> tuple[str, ...]:
     >>> split_products(r"a \cdot (b \cdot c)")
     ('a', '\\cdot', '(b \\cdot c)')
     """
+    return _cut(latex, lambda token, _: token in _PRODUCTS)
+
+
+def _cut(latex: str, cuts_at: Callable[[str, str], bool]) -> tuple[str, ...]:
+    """Cut a line around top-level tokens that are asked for, each with what stands before it since the last cut."""
     cells, depth = [""], 0
     for token in _TOKEN.findall(latex):
         depth += (token in _OPENING) - (token in _CLOSING)
-        if depth == 0 and token in _PRODUCTS:
+        if depth <= 0 and token not in _CLOSING and cuts_at(token, cells[-1]):
             cells.extend((token, ""))
         else:
             cells[-1] += token
     return tuple(cell.strip() for cell in cells if cell.strip())
 
 
-def _has_top_level_mark(tokens: Sequence[str]) -> bool:
-    depth = 0
-    for token in tokens:
-        depth += (token in _OPENING) - (token in _CLOSING)
-        if token == "&" and depth == 0:
-            return True
-    return False
-
-
-def _ends_a_term(cells: Sequence[str]) -> bool:
-    present = cells[-1].rstrip()
+def _ends_a_term(before: str) -> bool:
+    present = before.rstrip()
     return bool(present) and not present.endswith(("^", "_", r"\cdot", r"\times", ",", "/"))
 
 

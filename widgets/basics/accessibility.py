@@ -103,8 +103,12 @@ def next_stop(stops: Sequence[QWidget], now: QWidget | None, *, is_forward: bool
 def give_focus(stop: QWidget, reason: Qt.FocusReason = Qt.FocusReason.TabFocusReason) -> None:
     """Give a stop the keyboard, and bring it into sight wherever it can be scrolled to."""
     stop.setFocus(reason)
-    for area in _scrolled_in(stop):
-        area.ensureWidgetVisible(stop, 8, 8)
+    _bring_into_sight(stop)
+
+
+def _bring_into_sight(widget: QWidget) -> None:
+    for area in _scrolled_in(widget):
+        area.ensureWidgetVisible(widget, 8, 8)
 
 
 def _scrolled_in(widget: QWidget) -> Iterator[QScrollArea]:
@@ -142,8 +146,7 @@ class KeptInSight(QObject):
     @Slot()
     def _scroll(self) -> None:
         if self._part is not None:
-            for area in _scrolled_in(self._part):
-                area.ensureWidgetVisible(self._part, 8, 8)
+            _bring_into_sight(self._part)
 
     @Slot()
     def _let_go(self) -> None:

@@ -357,7 +357,7 @@ class LessonTask(QObject):
         chosen = settings_difference(home.document.settings, shown.document.settings)
         self._show(shown, is_hidden=False)
         self.standing_changed.emit(Standing.SEEN)
-        one_way = f"{ONE_WAY}{f' ({chosen})' if chosen else ''}."
+        one_way = f"{ONE_WAY} ({chosen})." if chosen else f"{ONE_WAY}."
         said = filter(None, (one_way, paragraphs(self._part.after)))
         self.view.show_feedback(LessonFeedback(tuple(said)))
         self.ended.emit(0.0, None)

@@ -210,8 +210,8 @@ class GridPresenter(QObject):
         is_recut = now.scene.makes_positions and now.triangle_count != before.triangle_count
         self._moment, self._guesses = moment, None
         self._grid.set_pixel_center(now.settings.pixel_center)
-        if is_recut:
-            self.focus_on(moment.triangle)
+        if is_recut and moment.triangle >= 0:
+            self._focus = moment.triangle
         elif self._focus < now.triangle_count:
             # Only a step moves the handles to its triangle: an edit leaves them where the pointer has them.
             self._stepped_to = moment.cursor
