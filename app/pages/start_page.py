@@ -33,7 +33,7 @@ from lessons.scene_edits import scene_digest
 from lessons.scenes import CATALOGUE, BuiltInScene
 from lessons.world_scenes import TEACHING_SIZE
 from widgets.basics.accessibility import announce, give_focus
-from widgets.basics.controls import button_with_tip, column_layout, row_layout, text_label
+from widgets.basics.controls import button_with_tip, column_layout, keep_room, row_layout, text_label
 from widgets.basics.image import display_image
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.lessons.lesson_list import LessonList
@@ -109,7 +109,7 @@ class StartPage(Page):
         self.lesson_button.clicked.connect(self.lessons.go_on)
         self.lesson_button.setProperty("role", "primary")
         self.lesson_button.hide()
-        self._keep_room(True)
+        keep_room(self.lesson_button)  # Before it is known which lesson it begins.
         self.begin_button = button_with_tip(
             "Begin with one triangle", "Open the scene with one triangle", self
         )
@@ -201,14 +201,8 @@ class StartPage(Page):
     @Slot()
     def _show_scenes(self) -> None:
         """Show the scenes where they stay: the lessons above them are there, or cannot be listed."""
-        self._keep_room(False)
+        keep_room(self.lesson_button, False)
         self.cards.show()
-
-    def _keep_room(self, is_kept: bool) -> None:
-        """Let the button of the lesson have its room before it is known which one it is."""
-        policy = self.lesson_button.sizePolicy()
-        policy.setRetainSizeWhenHidden(is_kept)
-        self.lesson_button.setSizePolicy(policy)
 
     @Slot(str)
     def _find(self, text: str) -> None:

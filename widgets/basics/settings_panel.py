@@ -8,14 +8,8 @@ from PySide6.QtGui import QStandardItem, QStandardItemModel
 from PySide6.QtWidgets import QComboBox, QGridLayout, QLabel, QToolButton, QWidget
 
 from widgets.basics.accessibility import ArrowGroup, KeptInSight
-from widgets.basics.controls import (
-    ChoiceBox,
-    button_with_tip,
-    column_layout,
-    flat_button,
-    row_layout,
-    text_label,
-)
+from widgets.basics.choice_box import ChoiceBox
+from widgets.basics.controls import button_with_tip, column_layout, flat_button, row_layout, text_label
 
 MORE, FEWER = "More methods", "Fewer methods"
 

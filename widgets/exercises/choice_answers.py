@@ -19,14 +19,8 @@ from PySide6.QtWidgets import (
 
 from core.records.cells import Form, Marks
 from widgets.basics.accessibility import announce, give_focus
-from widgets.basics.controls import (
-    ChoiceBox,
-    button_with_tip,
-    column_layout,
-    row_layout,
-    text_label,
-    wrap_text,
-)
+from widgets.basics.choice_box import ChoiceBox
+from widgets.basics.controls import button_with_tip, column_layout, row_layout, text_label, wrap_text
 from widgets.basics.drawing import Mark
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.exercises.mark_grid import AnswerView, MarkGrid

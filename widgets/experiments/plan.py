@@ -11,6 +11,7 @@ from widgets.basics.controls import (
     ElidedLabel,
     button_with_tip,
     column_layout,
+    keep_room,
     row_layout,
     set_role,
     text_label,
@@ -203,9 +204,7 @@ class PlanRowView(QWidget):
             "Difference", "Draw this choice alone, the reference settings, and the difference", self
         )
         self.picture_button.clicked.connect(self._ask)
-        policy = self.picture_button.sizePolicy()
-        policy.setRetainSizeWhenHidden(True)  # The columns of all rows stand under one another.
-        self.picture_button.setSizePolicy(policy)
+        keep_room(self.picture_button)  # The columns of all rows stand under one another.
         font = self.chosen.font()
         font.setBold(True)
         self.chosen.setFont(font)

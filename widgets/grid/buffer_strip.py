@@ -7,7 +7,8 @@ from PySide6.QtGui import QAction, QResizeEvent, QShowEvent, QWheelEvent
 from PySide6.QtWidgets import QComboBox, QLabel, QMenu, QScrollArea, QSizePolicy, QToolButton, QWidget
 
 from widgets.basics.accessibility import ArrowGroup
-from widgets.basics.controls import ChoiceBox, column_layout, row_layout
+from widgets.basics.choice_box import ChoiceBox
+from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.theme import current_theme, text_font, theme_notifier
 from widgets.grid.canvas import OutlineLayer
 from widgets.grid.geometry import GridGeometry

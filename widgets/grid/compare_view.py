@@ -16,14 +16,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from widgets.basics.controls import (
-    ChoiceBox,
-    CutLabel,
-    FlowLayout,
-    button_with_tip,
-    column_layout,
-    row_layout,
-)
+from widgets.basics.choice_box import ChoiceBox
+from widgets.basics.controls import CutLabel, FlowLayout, button_with_tip, column_layout, row_layout
 from widgets.basics.settings_panel import Setting
 from widgets.basics.theme import theme_notifier
 from widgets.grid.buffer_strip import BufferChoice

@@ -18,7 +18,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QSizePolicy, QToolButton, QWidget
 
 from core.explain.number_text import parse_number
-from widgets.basics.controls import button_with_tip, row_layout
+from widgets.basics.controls import button_with_tip, keep_room, row_layout
 from widgets.basics.image import colormap_on, colormap_table, fitted_range, value_range
 from widgets.basics.theme import current_theme, text_font, theme_notifier
 from widgets.basics.typed_value import NumberEdit
@@ -241,9 +241,7 @@ class RangeControl(QWidget):
         row = row_layout(self, 2 * current_theme().unit)
         self._parts = (self._low_edit, self._histogram, self._high_edit, self._fit_button, self._reset_button)
         for part in self._parts:
-            policy = part.sizePolicy()
-            policy.setRetainSizeWhenHidden(True)
-            part.setSizePolicy(policy)
+            keep_room(part)
             row.addWidget(part, 1 if part is self._histogram else 0)
         self.setAccessibleName("Colour range")
         theme_notifier().theme_changed.connect(self._take_font)

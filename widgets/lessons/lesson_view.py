@@ -14,6 +14,7 @@ from widgets.basics.controls import (
     button_with_tip,
     column_layout,
     flat_button,
+    keep_room,
     row_layout,
     set_role,
     text_label,
@@ -312,9 +313,7 @@ class LessonView(QWidget):
 
     def _keep_room_of_check(self) -> None:
         """Keep the room of Check when the question is answered, and so Next its place; a class needs the room."""
-        policy = self.check_button.sizePolicy()
-        policy.setRetainSizeWhenHidden(self.answer is not None and not self._is_presenting)
-        self.check_button.setSizePolicy(policy)
+        keep_room(self.check_button, self.answer is not None and not self._is_presenting)
 
     def is_of_answer(self, widget: QWidget) -> bool:
         """Return whether a widget is a part of the answer's form."""
@@ -419,9 +418,7 @@ class LessonView(QWidget):
         record = self._record
         is_right = self._feedback is not None and self._feedback.is_right is True
         is_done = record is not None and bool(record.task) and (record.is_done or is_right)
-        policy = self.task_icon.sizePolicy()
-        policy.setRetainSizeWhenHidden(record is not None and bool(record.task))
-        self.task_icon.setSizePolicy(policy)
+        keep_room(self.task_icon, record is not None and bool(record.task))
         self.task_icon.setFixedWidth(theme.text_px)
         self.task_icon.setVisible(is_done)
         if is_done:

@@ -18,7 +18,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from widgets.basics.controls import ChoiceBox, column_layout, row_layout
+from widgets.basics.choice_box import ChoiceBox
+from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.inspector.listing_editor import TokenHighlighter
 

@@ -4,7 +4,7 @@ import pytest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from widgets.basics.controls import MOST_SEEN, ChoiceBox
+from widgets.basics.choice_box import MOST_SEEN, ChoiceBox
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import LIGHT, PRESENTER, Theme
 

@@ -23,7 +23,7 @@ from app.window.main_window import MainWindow
 from core.stages.declared import STAGES
 from tests.core.listings import listings_of_the_program
 from tests.covering import is_everything
-from widgets.basics.controls import ChoiceBox
+from widgets.basics.choice_box import ChoiceBox
 from widgets.basics.message_bar import Message, MessageKind
 from widgets.basics.settings_panel import SettingsPanel
 from widgets.basics.style_sheet import style_sheet
